@@ -4,54 +4,42 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "artus/detail/apps/commands.h"
+#include "artus/detail/apps/options/companion_program.h"
 
 namespace artus {
 namespace {
 
 constexpr std::array<const char*, 3> kMakers{"touch", "force-dimension", "haply"};
+constexpr const char* kUsage =
+    "Let a haptic device move and push\n\n"
+    "Usage: artus bridge [list | check | limits] [MAKER[:DEVICE[=needle|=probe]] ...] [flags]\n\n";
 constexpr const char* kForms =
-    "artus bridge list\n"
-    "artus bridge touch:NAME=needle touch:OTHER=probe [flags]\n"
-    "artus bridge check touch[:NAME]\n"
-    "artus bridge limits touch > touch.toml\n"
     "Makers: touch (OpenHaptics), force-dimension (also falcon), haply. The flags of a maker's "
-    "program: artus bridge touch --help (docs/bridges.md)\n";
+    "program: artus bridge touch --help (docs/bridges.md)\n"
+    "Examples:\n"
+    "  artus bridge list\n"
+    "  artus bridge touch:NAME=needle touch:OTHER=probe\n"
+    "  artus bridge check touch:NAME\n"
+    "  artus bridge limits touch > touch.toml\n";
 
-/// The maker's program beside this one, as it is built, or where it is installed.
-Result<std::filesystem::path> find_bridge(const std::string& maker) {
-  const std::string program = "artus-bridge-" + maker;
-  std::error_code error;
-  const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  for (const auto& file : {here / program, here / "../libexec/artus" / program})
-    if (!error && access(file.c_str(), X_OK) == 0) return file;
-  return fail(ErrorCode::not_found, program + " was not built or installed beside this program",
-              here.string());
-}
-
-ExitCode become(const std::string& maker, std::vector<std::string> line) {
-  const auto program = find_bridge(maker);
+ExitCode become_bridge(const std::string& maker, std::vector<std::string> line) {
+  const auto program =
+      find_companion("artus-bridge-" + maker, " was not built or installed beside this program");
   if (!program) return report_error(program.error(), false);
   line.insert(line.begin(), "artus bridge " + maker);
-  std::vector<char*> argv;
-  for (std::string& argument : line) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  execv(program->c_str(), argv.data());
-  const std::error_code why(errno, std::generic_category());
-  return report_error({ErrorCode::failed, why.message(), program->string()}, false);
+  return become(*program, std::move(line));
 }
 
 ExitCode list_makers() {
   for (const char* maker : kMakers) {
     const pid_t child = fork();
-    if (child == 0) std::exit(static_cast<int>(become(maker, {"--list"})));
+    if (child == 0) std::exit(static_cast<int>(become_bridge(maker, {"--list"})));
     int status = 0;
     if (child > 0) waitpid(child, &status, 0);
   }
@@ -70,7 +58,7 @@ std::pair<std::string, std::string> parts_of(const std::string& text) {
 }
 
 ExitCode misused(const std::string& what) {
-  std::fprintf(stderr, "artus bridge: %s\n%s", what.c_str(), kForms);
+  std::fprintf(stderr, "artus bridge: %s\n%s%s", what.c_str(), kUsage, kForms);
   return ExitCode::usage;
 }
 
@@ -81,7 +69,7 @@ ExitCode run_bridge(const std::vector<std::string>& arguments) {
   const std::string& first = arguments.front();
   if (first == "list") return list_makers();
   if (first == "--help" || first == "-h") {
-    std::fputs(kForms, stdout);
+    std::printf("%s%s", kUsage, kForms);
     return ExitCode::ok;
   }
   const bool check = first == "check";
@@ -104,7 +92,7 @@ ExitCode run_bridge(const std::vector<std::string>& arguments) {
     line.push_back(device.find('=') == std::string::npos ? device + "=needle" : device);
   }
   if (maker.empty()) return misused("'" + first + "' names no maker");
-  return become(maker, std::move(line));
+  return become_bridge(maker, std::move(line));
 }
 
 /// For the list of commands: main() hands the line over before it is read.

@@ -9,10 +9,9 @@
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/printed.h"
-#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
-#include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/detail/echo/probe/placed_line.h"
+#include "artus/echo/labels.h"
 
 namespace artus {
 namespace {
@@ -131,24 +130,20 @@ NeedleShape draw_shape(const NeedleShape& own, const DrawRanges& ranges, const D
 class PictureFrame {
  public:
   PictureFrame(const Transducer& transducer, const ImageSettings& settings)
-      : transducer_(transducer),
-        converter_(transducer, settings),
-        profile_(transducer, settings.depth),
-        gel_limit_(settings.gel_limit) {}
+      : transducer_(transducer), labels_(transducer, settings), gel_limit_(settings.gel_limit) {}
 
-  [[nodiscard]] double half_slice(double depth) const {
-    return profile_.elevation_width(std::max(0.0, depth)) / 2;
-  }
-  [[nodiscard]] bool shows(const Vec3& tip_P) const {
-    return converter_.inside(converter_.pixel_of(tip_P)) &&
-           std::abs(tip_P.y()) <= half_slice(tip_P.z());
+  [[nodiscard]] double half_slice(double depth) const { return labels_.half_slice(depth); }
+  [[nodiscard]] bool shows(const NeedleView& needle, const Pose& X_JP) const {
+    const NeedleTruth truth = labels_.locate(needle, X_JP);
+    return truth.in_picture && truth.in_slice;
   }
   /// Whether sound comes straight to a tip that the picture shows.
   [[nodiscard]] bool reaches(const Scene& scene, const std::vector<bool>& opaque, const Pose& X_JP,
                              const Vec3& tip_P) const {
-    const PixelPoint at = converter_.pixel_of(tip_P);
+    const ScanConverter& converter = labels_.converter();
+    const PixelPoint at = converter.pixel_of(tip_P);
     const int line =
-        converter_.line_at(static_cast<int>(std::round(at.x)), static_cast<int>(std::round(at.y)))
+        converter.line_at(static_cast<int>(std::round(at.x)), static_cast<int>(std::round(at.y)))
             .line;
     const Vec3 face = place_line(transducer_, line, X_JP).origin_J;
     std::array<TissueInterval, kMostIntervals> intervals;
@@ -166,8 +161,7 @@ class PictureFrame {
 
  private:
   Transducer transducer_;
-  ScanConverter converter_;
-  BeamProfile profile_;
+  LabelRenderer labels_;
   double gel_limit_;
 };
 
@@ -227,7 +221,7 @@ bool throw_needle(const DrawTables& tables, const Dice& first, const Dice& dice,
   frame.X_JN = X_JN;
   frame.needle = draw_shape(tables.base.needle, ranges, first);
   const Vec3 tip = frame.X_JP.inverse() * X_JN.translation();
-  if (shown && !picture.shows(tip)) return false;
+  if (shown && !picture.shows({X_JN, *frame.needle}, frame.X_JP)) return false;
   if (shown && ranges.tip == TipPlace::visible &&
       !picture.reaches(scene, tables.opaque[frame.patient], frame.X_JP, tip))
     return false;

@@ -108,11 +108,10 @@ Result<FrameSource> frames_of(const SweepCommandOptions& options, const LoadedVi
       return fail(ErrorCode::invalid, "a joint without tetrahedra cannot be pressed",
                   patient->joint().name);
   if (ranges->press_share > 0) ARTUS_TRY(check_faces(sweep));
-  if (!options.ranges.empty())
+  if (ranges->not_in != DrawRanges().not_in)  // not every joint has what is barred by itself
     for (const std::string& name : unknown_places(base, *ranges))
-      if (ranges->not_in != DrawRanges().not_in)
-        return fail(ErrorCode::not_found, "no tissue or structure has this name in not_in",
-                    options.ranges.string() + ": " + name);
+      return fail(ErrorCode::not_found, "no tissue or structure has this name in not_in",
+                  options.ranges.string() + ": " + name);
   return drawn_frames(base, *ranges, options.view.seed, static_cast<std::size_t>(options.draw));
 }
 

@@ -165,9 +165,13 @@ NeedleTruth LabelRenderer::locate(const NeedleView& needle, const Pose& X_JP) co
   truth.tip_offset = tip.y();
   truth.plane_angle = std::asin(std::min(1.0, std::abs(axis.y())));
   truth.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
-  truth.in_slice = std::abs(tip.y()) <= profile_.elevation_width(std::max(0.0, tip.z())) / 2;
+  truth.in_slice = std::abs(tip.y()) <= half_slice(tip.z());
   truth.in_plane = truth.plane_angle < kInPlaneAngle && truth.in_slice;
   return truth;
+}
+
+double LabelRenderer::half_slice(double depth) const noexcept {
+  return profile_.elevation_width(std::max(0.0, depth)) / 2;
 }
 
 LabelImage render_labels(const Scene& scene, const Pose& X_JP, const Transducer& transducer,

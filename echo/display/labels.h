@@ -59,6 +59,9 @@ class LabelRenderer {
   /// Tip position and angles of a needle.
   [[nodiscard]] NeedleTruth locate(const NeedleView& needle, const Pose& X_JP) const;
 
+  /// m, half of the slice's thickness at a depth (m) below the face.
+  [[nodiscard]] double half_slice(double depth) const noexcept;
+
   [[nodiscard]] const ScanConverter& converter() const noexcept { return converter_; }
 
  private:

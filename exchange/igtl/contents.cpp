@@ -62,6 +62,36 @@ void put_quaternion(BigEndianWriter& out, const Matrix& matrix) {
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) out.put(static_cast<float>(value));
 }
 
+/// Tools with their poses as `put` writes one.
+template <class Put>
+std::string pack_tools(const std::vector<TrackedTool>& tools, const Put& put) {
+  BigEndianWriter out;
+  for (const TrackedTool& tool : tools) {
+    out.put_padded(tool.name, kToolNameSize);
+    out.put(std::uint8_t{2});  // a tool with six degrees of freedom
+    out.put(std::uint8_t{0});
+    put(out, tool.matrix);
+  }
+  return std::move(out.bytes());
+}
+
+/// Its inverse; `get` reads a pose, or says what is wrong with it.
+template <class Get>
+Result<std::vector<TrackedTool>> parse_tools(std::string_view content, const Get& get) {
+  BigEndianReader in(content);
+  std::vector<TrackedTool> tools;
+  while (!in.at_end()) {
+    TrackedTool tool;
+    tool.name = in.get_padded(kToolNameSize);
+    static_cast<void>(in.get_bytes(2));
+    const Result<Matrix> matrix = get(in);
+    ARTUS_TRY(matrix);
+    tool.matrix = *matrix;
+    tools.push_back(std::move(tool));
+  }
+  return tools;
+}
+
 /// From the corner pixel to the picture's middle, in the matrix's own lengths.
 Vec3 corner_to_middle(const Matrix& m, int width, int height) {
   return 0.5 * (width - 1) * m.col(0) + 0.5 * (height - 1) * m.col(1);
@@ -106,59 +136,30 @@ Result<Matrix> parse_position(std::string_view content) {
 }
 
 std::string pack_tdata(const std::vector<TrackedTool>& tools) {
-  BigEndianWriter out;
-  for (const TrackedTool& tool : tools) {
-    out.put_padded(tool.name, kToolNameSize);
-    out.put(std::uint8_t{2});  // a tool with six degrees of freedom
-    out.put(std::uint8_t{0});
-    put_matrix(out, tool.matrix);
-  }
-  return std::move(out.bytes());
+  return pack_tools(tools, put_matrix);
 }
 
 Result<std::vector<TrackedTool>> parse_tdata(std::string_view content) {
-  BigEndianReader in(content);
-  std::vector<TrackedTool> tools;
-  while (!in.at_end()) {
-    TrackedTool tool;
-    tool.name = in.get_padded(kToolNameSize);
-    static_cast<void>(in.get_bytes(2));
-    tool.matrix = get_matrix(in);
+  return parse_tools(content, [](BigEndianReader& in) -> Result<Matrix> {
+    const Matrix matrix = get_matrix(in);
     if (!in.ok()) return wrong_length("TDATA");
-    if (!tool.matrix.allFinite()) return fail(ErrorCode::invalid, "TDATA: a number is not finite");
-    tools.push_back(std::move(tool));
-  }
-  return tools;
+    if (!matrix.allFinite()) return fail(ErrorCode::invalid, "TDATA: a number is not finite");
+    return matrix;
+  });
 }
 
 std::string pack_qtdata(const std::vector<TrackedTool>& tools) {
-  BigEndianWriter out;
-  for (const TrackedTool& tool : tools) {
-    out.put_padded(tool.name, kToolNameSize);
-    out.put(std::uint8_t{2});
-    out.put(std::uint8_t{0});
-    put_quaternion(out, tool.matrix);
-  }
-  return std::move(out.bytes());
+  return pack_tools(tools, put_quaternion);
 }
 
 Result<std::vector<TrackedTool>> parse_qtdata(std::string_view content) {
-  BigEndianReader in(content);
-  std::vector<TrackedTool> tools;
-  while (!in.at_end()) {
-    TrackedTool tool;
-    tool.name = in.get_padded(kToolNameSize);
-    static_cast<void>(in.get_bytes(2));
+  return parse_tools(content, [](BigEndianReader& in) -> Result<Matrix> {
     const auto p = get_place(in);
     std::array<double, 4> q{};
     for (double& value : q) value = static_cast<double>(in.get<float>());
     if (!in.ok()) return wrong_length("QTDATA");
-    const auto matrix = placed(p, q[0], q[1], q[2], q[3], "QTDATA");
-    ARTUS_TRY(matrix);
-    tool.matrix = *matrix;
-    tools.push_back(std::move(tool));
-  }
-  return tools;
+    return placed(p, q[0], q[1], q[2], q[3], "QTDATA");
+  });
 }
 
 std::string pack_start_tracking(std::string_view of, std::int32_t milliseconds) {

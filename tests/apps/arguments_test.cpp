@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/apps/options/companion_program.h"
+
 namespace artus {
 namespace {
 
@@ -41,6 +43,13 @@ TEST(Arguments, AProbeWithParallelAxesIsRefused) {
   EXPECT_FALSE(parse_probe_pose("0,0,0/0,0,1/0,0,-2", "--probe").has_value());
   EXPECT_FALSE(parse_probe_pose("0,0,0/0,0,0", "--probe").has_value());
   EXPECT_FALSE(parse_probe_pose("0,0,0", "--probe").has_value());
+}
+
+TEST(CompanionProgram, OneThatIsNotThereIsNamedWithWhatToDo) {
+  const auto program = find_companion("artus-nothing", ", build it");
+  ASSERT_FALSE(program.has_value());
+  EXPECT_EQ(program.error().code, ErrorCode::not_found);
+  EXPECT_EQ(program.error().message, "artus-nothing, build it");
 }
 
 TEST(Arguments, ANeedlePointsFromEntryToTip) {
