@@ -23,11 +23,12 @@ int BlockWorkers::workers() const noexcept {
 
 void BlockWorkers::run(const Work& work, const void* body,
                        void (*call)(const void*, int, int, int)) {
-  const auto [n, size] = work;
+  const int n = work.n;
+  const int size = work.block;
   arena_->tasks.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, blocks_of(n, size), 1),
-        [n = n, size = size, body, call](const tbb::blocked_range<int>& range) {
+        [n, size, body, call](const tbb::blocked_range<int>& range) {
           for (int b = range.begin(); b < range.end(); ++b) {
             call(body, tbb::this_task_arena::current_thread_index(), b * size,
                  std::min(n, (b + 1) * size));
