@@ -27,6 +27,9 @@ struct ImageOptions {
   std::filesystem::path envelope;
   bool plain = false;
   std::optional<double> doppler_mm_s;
+  bool doppler_power = false;
+  double doppler_time_s = 0.125;
+  double doppler_limit_cm_s = 10;
   bool json = false;
 };
 
@@ -34,7 +37,8 @@ struct ImageOptions {
 cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& options) {
   const cv::Mat picture =
       options.doppler_mm_s
-          ? doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings)
+          ? doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings,
+                          options.doppler_power ? MotionShown::power : MotionShown::velocity)
           : grey_image(frame);
   return options.plain ? picture : annotated_image(picture, frame, view.transducer);
 }
@@ -47,12 +51,14 @@ ExitCode run_image(const ImageOptions& options) {
   View& view = loaded->view;
   if (options.doppler_mm_s) {
     view.settings.doppler = true;
+    view.settings.doppler_limit = 0.01 * options.doppler_limit_cm_s;
     if (loaded->needle)
       loaded->needle->v_JN =
           *options.doppler_mm_s * kMillimetre * loaded->needle->X_JN.linear().col(2);
   }
-  const Frame frame =
-      render_bmode(loaded->scene, loaded->X_JP, loaded->needle, view.transducer, view.settings);
+  Renderer renderer(loaded->scene, view.transducer, view.settings);
+  if (options.doppler_mm_s) renderer.set_flow_time(options.doppler_time_s);
+  const Frame& frame = renderer.render(loaded->X_JP, loaded->needle);
   if (const auto sight = check_sight(frame, *loaded); !sight)
     return report_error(sight.error(), options.json);
 
@@ -105,7 +111,8 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --press-n 3 -o pressed.png\n"
       "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-direction in -o "
       "tent.png\n"
-      "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
+      "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png\n"
+      "  artus image -j meshes/hip --probe=X --doppler 0 --doppler-limit 40 -o vessels.png");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);
   add_view_options(command, options->view);
@@ -115,8 +122,20 @@ void add_image_command(Command& app, ExitCode& code) {
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");
-  command->add_option("--doppler", options->doppler_mm_s,
-                      "colour what moves, with the needle at this speed toward its tip, mm/s");
+  command->add_option(
+      "--doppler", options->doppler_mm_s,
+      "colour what moves: blood in its vessels, and the needle at this speed toward "
+      "its tip, mm/s");
+  command->add_flag("--doppler-power", options->doppler_power,
+                    "colour how strong its echo is, whichever way it moves");
+  command
+      ->add_option("--doppler-time", options->doppler_time_s,
+                   "s after a heart beat began at which blood is seen (default: systole)")
+      ->check(number_in(0, 1e4));
+  command
+      ->add_option("--doppler-limit", options->doppler_limit_cm_s,
+                   "velocity along the beam at which colours wrap round, cm/s (default: 10)")
+      ->check(number_in(0.1, 1000));
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_image(*options); });
 }

@@ -90,13 +90,13 @@ cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter, const Sh
 }
 
 cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
-                      const ImageSettings& settings) {
-  const std::vector<std::uint8_t> moving = motion_picture(frame, converter, settings);
+                      const ImageSettings& settings, MotionShown shown) {
+  const std::vector<std::uint8_t> moving = motion_picture(frame, converter, settings, shown);
   cv::Mat out;
   cv::cvtColor(grey_image(frame), out, cv::COLOR_GRAY2BGR);
   for (std::size_t i = 0; i < moving.size(); ++i) {
     if (moving[i] == 0) continue;
-    const auto [red, green, blue] = motion_colour(moving[i]);
+    const auto [red, green, blue] = motion_colour(moving[i], shown);
     const auto width = static_cast<std::size_t>(out.cols);
     out.at<cv::Vec3b>(static_cast<int>(i / width), static_cast<int>(i % width)) =
         cv::Vec3b(blue, green, red);

@@ -31,10 +31,11 @@ namespace artus {
                                   const ShownPlaces* places = nullptr);
 
 /// The grey image (CV_8UC3) with what moves in colour: red toward the probe, blue away, the
-/// brighter the faster. Requires: a frame with velocities; `converter` and `settings` are the
-/// frame's.
+/// brighter the faster; of powers dark red to yellow. Requires: a frame with velocities;
+/// `converter` and `settings` are the frame's.
 [[nodiscard]] cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
-                                    const ImageSettings& settings);
+                                    const ImageSettings& settings,
+                                    MotionShown shown = MotionShown::velocity);
 
 /// Tip in pixels, where it is (tip_true_px) and where it shows (Frame::tip_shown; null when it does
 /// not), offset from the plane in mm, angles in degrees, in_plane; tip_visible: it shows and lies

@@ -321,7 +321,6 @@ void Session::run_drawing(const ThreadOptions& options) {
 
 void Session::draw(const ImageJob& job) {
   const std::int64_t begin = monotonic_ns();
-  simulation_.set_motion_wanted(motion_wanted_);
   ImageSnapshot& out = images_.slot();
   out.body = nullptr;  // of an image long gone: its scene is used again
   const Frame& frame = simulation_.render(job.input, job.body);

@@ -28,7 +28,8 @@ struct ImageJob;
 /// An image as the window gets it.
 struct ImageSnapshot {
   std::vector<std::uint8_t> grey;  ///< (height, width), x fastest
-  /// As grey: what moves toward the probe or away, see motion_picture; empty unless it is wanted.
+  /// As grey: what moves toward the probe or away, see motion_picture; empty unless the
+  /// controls want it.
   std::vector<std::uint8_t> motion;
   int width = 0;           ///< pixels
   int height = 0;          ///< pixels
@@ -146,9 +147,6 @@ class Session {
   [[nodiscard]] const Scene& scene() const noexcept { return *scene_; }
   [[nodiscard]] std::string_view device_name() const noexcept { return device_->name(); }
 
-  /// Colour Doppler of later images, see ImageSnapshot::motion. Requires params().image.doppler.
-  void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
-
   // For one thread, the window's.
   void set_controls(const ImageControls& controls) noexcept { controls_.store(controls); }
   [[nodiscard]] const ImageSnapshot* newest_image() noexcept { return images_.newest(); }
@@ -220,7 +218,6 @@ class Session {
   std::thread imaging_thread_;
   std::thread drawing_thread_;
   std::thread housekeeping_thread_;
-  std::atomic<bool> motion_wanted_{false};
 };
 
 }  // namespace artus

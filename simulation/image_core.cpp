@@ -120,6 +120,11 @@ void ImageCore::follow(const ImageControls& controls) {
   image.dynamic_range_db = controls.dynamic_range_db;
   probe.frequency = controls.frequency;
   probe.elevation_focus = controls.elevation_focus;
+  image.persistence = controls.persistence;
+  image.grey_curve = controls.grey_curve;
+  image.look = controls.look;
+  image.compound_angles = probe.radius == 0 ? static_cast<int>(controls.compound_angles) : 1;
+  image.doppler = image.doppler || controls.motion != MotionShown::none;
   if (!validate(probe) || !validate(image)) return;
   probe_ = probe;
   image_ = image;
@@ -151,6 +156,9 @@ const Frame& ImageCore::render(const FrameInput& input, const ImagedBody& body) 
   if (input.has_needle != 0)
     needle = NeedleView{to_pose(input.X_JN), needle_shape_, velocity_of_needle(input)};
   before_ = input;
+  const bool colours = controls_.motion != MotionShown::none;
+  renderer_->set_flow_time(colours ? std::optional(1e-9 * static_cast<double>(input.sample_time_ns))
+                                   : std::nullopt);
   frame_ = &renderer_->render(to_pose(input.X_JP), needle);
   return *frame_;
 }
@@ -158,14 +166,17 @@ const Frame& ImageCore::render(const FrameInput& input, const ImagedBody& body) 
 Vec3 ImageCore::velocity_of_needle(const FrameInput& input) const noexcept {
   constexpr std::int64_t kLongest = 500'000'000;  // ns; images further apart tell of no speed
   const std::int64_t dt = input.sample_time_ns - before_.sample_time_ns;
-  if (!motion_wanted_ || before_.has_needle == 0 || dt <= 0 || dt > kLongest) return Vec3::Zero();
+  if (input.controls.motion == MotionShown::none || before_.has_needle == 0 || dt <= 0 ||
+      dt > kLongest)
+    return Vec3::Zero();
   const Vec3 direction = to_pose(input.X_JN).translation() - to_pose(before_.X_JN).translation();
   return direction / (1e-9 * static_cast<double>(dt));
 }
 
 std::vector<std::uint8_t> ImageCore::motion() const {
-  if (!motion_wanted_ || frame_ == nullptr || frame_->velocity.empty()) return {};
-  return motion_picture(*frame_, renderer_->converter(), renderer_->settings());
+  if (controls_.motion == MotionShown::none || frame_ == nullptr || frame_->velocity.empty())
+    return {};
+  return motion_picture(*frame_, renderer_->converter(), renderer_->settings(), controls_.motion);
 }
 
 }  // namespace artus

@@ -44,10 +44,9 @@ class ImageCore {
   /// Both.
   const Frame& render(const FrameInput& input) { return render(input, advance(input)); }
 
-  /// Whether later images are looked at for what moves. Their greys do not depend on it.
-  void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
-  /// Of the last image: what moves, see motion_picture. The needle moves as it did since the image
-  /// before. Empty unless wanted, and settings have Doppler.
+  /// Of the last image: what moves, see motion_picture; greys do not depend on it. Needle and
+  /// tissue move as they did since the image before. Empty unless the controls want it, and until
+  /// the tables for it are made.
   [[nodiscard]] std::vector<std::uint8_t> motion() const;
 
   /// Of the last step: what the tissue answers the hands with; null: the body is rigid.
@@ -97,8 +96,7 @@ class ImageCore {
   std::uint64_t due_ = 0;                            // image that takes next_ over
   std::future<std::unique_ptr<EchoPipeline>> next_;  // being made, or empty
   FrameInput before_;                                // of the last image
-  bool motion_wanted_ = false;
-  const Frame* frame_ = nullptr;  // the last
+  const Frame* frame_ = nullptr;                     // the last
 };
 
 }  // namespace artus

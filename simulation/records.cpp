@@ -11,9 +11,18 @@
 namespace artus {
 
 ImageControls controls_of(const SessionParams& params) noexcept {
-  return {params.image.depth,          params.image.gain_db,
-          params.image.tgc_db_cm_mhz,  params.image.dynamic_range_db,
-          params.transducer.frequency, params.transducer.elevation_focus};
+  ImageControls controls;
+  controls.depth = params.image.depth;
+  controls.gain_db = params.image.gain_db;
+  controls.tgc_db_cm_mhz = params.image.tgc_db_cm_mhz;
+  controls.dynamic_range_db = params.image.dynamic_range_db;
+  controls.frequency = params.transducer.frequency;
+  controls.elevation_focus = params.transducer.elevation_focus;
+  controls.persistence = params.image.persistence;
+  controls.grey_curve = params.image.grey_curve;
+  controls.look = params.image.look;
+  controls.compound_angles = static_cast<std::uint32_t>(params.image.compound_angles);
+  return controls;
 }
 
 FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& controls,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -9,6 +10,7 @@
 #include "artus/detail/simulation/tissue_packet.h"
 #include "artus/detail/simulation/two_phase_gesture.h"
 #include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
 #include "artus/simulation/input_device.h"
 #include "artus/simulation/session_params.h"
 
@@ -78,6 +80,13 @@ struct ImageControls {
   double dynamic_range_db = 60;
   double frequency = 12e6;         ///< Hz
   double elevation_focus = 20e-3;  ///< m
+  double persistence = 0;          ///< 0 none .. <1 share of the image before
+  GreyCurve grey_curve;
+  Look look = Look::clinical;
+  std::array<std::uint8_t, 3> reserved{};
+  std::uint32_t compound_angles = 1;  ///< steered frames, odd; a curved probe steers none
+  MotionShown motion = MotionShown::none;
+  std::uint32_t more_reserved = 0;
   friend bool operator==(const ImageControls&, const ImageControls&) = default;
 };
 [[nodiscard]] ImageControls controls_of(const SessionParams& params) noexcept;

@@ -145,10 +145,6 @@ const Felt& Simulation::step(const Hands& hands) {
   return felt_;
 }
 
-void Simulation::set_motion_wanted(bool wanted) noexcept {
-  if (images_) images_->set_motion_wanted(wanted);
-}
-
 std::vector<std::uint8_t> Simulation::motion() const {
   return images_ ? images_->motion() : std::vector<std::uint8_t>();
 }

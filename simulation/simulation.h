@@ -110,10 +110,8 @@ class Simulation {
   /// Forgets the imaging half, which failed: the next advance() makes another.
   void restart_imaging() noexcept;
 
-  /// Whether later images are looked at for what moves; their greys do not depend on it.
-  void set_motion_wanted(bool wanted) noexcept;
-  /// Of the last image: what moves, see motion_picture. Empty unless wanted, and settings have
-  /// Doppler.
+  /// Of the last image: what moves, see motion_picture; greys do not depend on it. Empty unless the
+  /// controls want it, and for some images from then on, until tables are made for it.
   [[nodiscard]] std::vector<std::uint8_t> motion() const;
 
   // ---- what is so now

@@ -17,10 +17,11 @@ struct StepName {
   const char* step;
   const char* words;
 };
-constexpr std::array<StepName, 8> kSteps{{
+constexpr std::array<StepName, 9> kSteps{{
     {"ask:side", msgid("asked which side")},
     {"ask:allergy", msgid("asked about allergies")},
     {"ask:consent", msgid("asked for consent")},
+    {"auto:doppler", msgid("looked for vessels (colour)")},
     {"auto:entry", msgid("needle in")},
     {"auto:tip_seen", msgid("tip seen")},
     {"auto:placed", msgid("tip in place")},
@@ -52,7 +53,7 @@ TrainLesson::TrainLesson(Scenario scenario, std::shared_ptr<const Scene> scene,
     : scenario_(std::move(scenario)),
       scene_(std::move(scene)),
       period_(1 / params.haptic_rate),
-      finder_(params.transducer, params.image.depth, params.needle_shape),
+      finder_(params.transducer, params.image.depth, params.needle_shape, params.image.look),
       search_(scene_->joint(), scenario_.find, params.transducer, params.image.depth,
               StructureSearch::kTold),
       done_(std::move(asked)),
@@ -78,6 +79,7 @@ void TrainLesson::say(const char* what, double time, bool hurts) {
 /// Which steps are done by now.
 void TrainLesson::follow(const LessonView& view) {
   const bool inside = view.needle.inside;
+  if (!inside && view.doppler && done_.count("auto:entry") == 0) done_.insert("auto:doppler");
   if (inside) done_.insert("auto:entry");
   const Pose X_JN = to_pose(view.now.X_JN);
   const TipSight sight = finder_.look(*scene_, to_pose(view.now.X_JP), X_JN);

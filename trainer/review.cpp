@@ -152,7 +152,7 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
                              feedback_words(language, fault.cause),
                              feedback_words(language, fault.mend)});
   const TipSightFinder finder(review.params.transducer, review.params.image.depth,
-                              review.params.needle_shape);
+                              review.params.needle_shape, review.params.image.look);
   const ShownTips tips(played.recording);
   review.why = [finder, tips, scene = task.scene, language](const HapticSnapshot& state) {
     return why_of(finder, *scene, state, tips.at(state.input.device.time_ns), language);

@@ -30,7 +30,7 @@ void LiveAttempt::on_tick(const HapticSnapshot& tick) noexcept {
 void LiveAttempt::on_frame(const FrameInput& input, const Frame& frame) {
   std::optional<ImageSight> sight;
   if (input.has_needle != 0) sight = sight_of(tip_contrast(frame, meter_.options().transducer));
-  waiting_.push_back({input.sample_time_ns, sight});
+  waiting_.push_back({input.sample_time_ns, sight, input.controls.motion != MotionShown::none});
   place_sights(false);
 }
 
@@ -42,8 +42,10 @@ void LiveAttempt::place_sights(bool over) {
     while (at_ < n && moments_[at_].sample_ns < picture.sample_ns) ++at_;
     if (at_ == n && !over) break;
     ++placed;
+    const double time = at_ < n ? moments_[at_].time : last_.load();
+    if (picture.coloured) meter_.add_coloured(time);
     if (!picture.sight) continue;
-    picture.sight->time = at_ < n ? moments_[at_].time : last_.load();
+    picture.sight->time = time;
     meter_.add_sight(*picture.sight);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(placed));

@@ -39,6 +39,7 @@ class LiveAttempt final : public SessionObserver {
   struct Waiting {
     std::int64_t sample_ns = 0;
     std::optional<ImageSight> sight;  ///< empty: no needle
+    bool coloured = false;            ///< of Doppler
   };
   void place_sights(bool over);
 

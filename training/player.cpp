@@ -82,6 +82,7 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
   options.transducer = params.transducer;
   options.image_depth = params.image.depth;
   options.needle = params.needle_shape;
+  options.look = params.image.look;
   options.longest = 2 * scenario.time_limit + 60;
   if (!scenario.find.empty()) {
     for (const std::string& name : scenario.find) ARTUS_TRY(find_region(joint, name));

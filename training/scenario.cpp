@@ -20,7 +20,7 @@ namespace artus {
 namespace {
 
 std::vector<std::string> step_names() {
-  return {"ask:side",      "ask:allergy", "ask:consent",   "auto:entry",
+  return {"ask:side",      "ask:allergy", "ask:consent",   "auto:doppler",  "auto:entry",
           "auto:tip_seen", "auto:placed", "auto:injected", "auto:withdrawn"};
 }
 

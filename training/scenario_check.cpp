@@ -77,7 +77,8 @@ void check_zones(const Scenario& s, const Goals& goals, std::vector<std::string>
 void check_sight(const Scenario& s, const Scene& scene, const MeterOptions& options,
                  std::vector<std::string>& out) {
   if (s.entry.plane != "in") return;
-  const TipSightFinder finder(options.transducer, options.image_depth, options.needle);
+  const TipSightFinder finder(options.transducer, options.image_depth, options.needle,
+                              options.look);
   const TipSight sight = finder.look(
       scene, s.X_JP, make_pose(s.target.point, s.target.point - s.entry.centre, Vec3::Zero()));
   if (!sight.in_picture)

@@ -49,6 +49,7 @@ ImageSight sight_of(std::optional<double> contrast_db) {
 }
 
 void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time) {
+  if (input.controls.motion != MotionShown::none) meter.add_coloured(time);
   if (input.has_needle == 0) return;
   ImageSight sight = sight_of(tip_contrast(frame, meter.options().transducer));
   sight.time = time;
@@ -60,6 +61,7 @@ MeterOptions options_for(const RecordingHead& head) {
   options.transducer = head.params.transducer;
   options.image_depth = head.params.image.depth;
   options.needle = head.params.needle_shape;
+  options.look = head.params.image.look;
   return options;
 }
 
@@ -88,7 +90,9 @@ void add_recorded_sights(AttemptMeter& meter, const Recording& recording) {
   TickClock clock(recording);
   for (const FrameRecord& frame : recording.frames) {
     const double time = clock.time_of(frame.input);
-    if (frame.input.has_needle == 0 || frame.digest == 0) continue;
+    if (frame.digest == 0) continue;
+    if (frame.input.controls.motion != MotionShown::none) meter.add_coloured(time);
+    if (frame.input.has_needle == 0) continue;
     const double contrast = frame.tip_contrast;
     ImageSight sight = sight_of(std::isnan(contrast) ? std::nullopt : std::optional(contrast));
     sight.time = time;

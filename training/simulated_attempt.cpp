@@ -116,7 +116,7 @@ class NeedleAttempt final : public SimulatedAttempt {
                 const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options,
                 Recording& recording)
       : scene_(std::move(scene)),
-        finder_(params.transducer, params.image.depth, params.needle_shape),
+        finder_(params.transducer, params.image.depth, params.needle_shape, params.image.look),
         session_(scene_, params, options, recording),
         person_(skill,
                 {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,

@@ -217,8 +217,8 @@ bool WindowLoop::act_on_picture(Action action) {
       state_.look.colour = !state_.look.colour;
       if (state_.look.colour)
         say(translate(state_,
-                      "Colour Doppler of the needle: drag the box, or move it with the arrows. "
-                      "Blood is not simulated"));
+                      "Colour Doppler: drag the box, or move it with the arrows. Tilt the probe "
+                      "toward a vessel: what runs across the beam shows no colour"));
       return true;
     case Action::cine_back:
     case Action::cine_forward:

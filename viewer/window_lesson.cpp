@@ -20,7 +20,7 @@ void WindowLoop::begin_lesson() {
 }
 
 void WindowLoop::lead_lesson() {
-  lesson_ = options_.lesson->lead({input_.now, input_.needle});
+  lesson_ = options_.lesson->lead({input_.now, input_.needle, state_.look.colour});
   if (lesson_.over) state_.quit = state_.finished = true;
   input_.needle.in_plane = input_.needle.in_plane && lesson_.beam_on_tip;
   input_.marks.clear();

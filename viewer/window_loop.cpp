@@ -53,6 +53,7 @@ WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Ses
   state_.left_handed = options.left_handed;
   state_.patient = options.patient;
   state_.controls = sent_controls_ = controls_of(session.params());
+  if (auto curves = read_bundled_grey_curves()) state_.grey_curves = std::move(*curves);
   state_.pixels_per_mm = options.pixels_per_mm > 0 ? options.pixels_per_mm : screen_density();
   if (options.lesson) begin_lesson();
   input_.session = &session;

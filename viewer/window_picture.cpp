@@ -59,7 +59,7 @@ void WindowLoop::upload_image() {
   if (input_.image == nullptr || input_.image->width == 0) return;
   const ImageSnapshot& image = *input_.image;
   const bool same_look = state_.look == shown_look_;
-  session_.set_motion_wanted(state_.look.colour);
+  state_.controls.motion = state_.look.motion();
   if (image.input.number != shown_image_ || !same_look || image_texture_.width() == 0) {
     show(image, image_texture_);
     shown_image_ = image.input.number;

@@ -33,6 +33,7 @@ void accumulate(const float* in, float* out, std::size_t n) noexcept {
 struct Acquisition::Pass {
   const EchoView& view;
   BeamTracer tracer;
+  std::span<const RegionAcoustics> regions;
   std::optional<NeedleEcho> needle;
   Frame& frame;
 };
@@ -50,6 +51,7 @@ Acquisition::Acquisition(const Transducer& transducer, const ImageSettings& sett
       spread_(transducer, settings.depth, settings.n_samples),
       light_(transducer, settings.depth, settings.n_samples),
       drifting_(transducer, shape),
+      flow_(transducer, settings, shape),
       n_more_(settings.look == Look::compound ? ScatterField::kMoreSets : 0) {
   const auto lines = static_cast<std::size_t>(n_lines_);
   lines_.resize(lines);
@@ -100,7 +102,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   drifting_.place(body.drifting, view.X_JP, view.probe);
   const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
   Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
-            std::nullopt, frame};
+            body.regions, std::nullopt, frame};
   if (view.needle) {
     pass.needle.emplace(*view.needle, view.X_JP, view.probe, *shape_, settings_.look);
   } else {
@@ -149,6 +151,7 @@ void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std:
   spread_.note(l, scratch.beams.path());
   const BeamTrace& central = scratch.beams.central();
   light_.note(l, central);
+  flow_.note(l, central, pass.regions, coupling_.at_line(l));
   const SoundedLine sounded{placed, central, scratch.beams.path()};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
   drifting_.add(sounded, echoes);

@@ -12,6 +12,7 @@
 #include "artus/detail/echo/acquire/beam_spread.h"
 #include "artus/detail/echo/acquire/block_workers.h"
 #include "artus/detail/echo/acquire/drifting_echo.h"
+#include "artus/detail/echo/acquire/flow_detector.h"
 #include "artus/detail/echo/acquire/line_synthesis.h"
 #include "artus/detail/echo/acquire/needle_echo.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
@@ -31,6 +32,7 @@ struct EchoBody {
   std::vector<PointReflector> reflectors;
   std::vector<NeedleTrack> tracks;
   std::vector<DriftingPoint> drifting;
+  std::optional<double> flow_time;  ///< s; colour Doppler then looks for blood and moving tissue
 };
 
 /// From where: `probe` is the transducer, steered as one view of a compound image is.
@@ -50,6 +52,8 @@ class Acquisition {
   /// See Renderer::set_contact.
   void set_contact(std::span<const float> coverage) { coupling_.set(coverage); }
 
+  /// Before the first run of a frame.
+  void begin_frame(const EchoBody& body) noexcept { flow_.begin_frame(body.flow_time); }
   /// Listens; fills contact, shadow_from and needle_light of the frame. Requires: rigid poses.
   void run(const EchoBody& body, const EchoView& view, BlockWorkers& workers, Frame& frame);
 
@@ -76,6 +80,10 @@ class Acquisition {
 
   /// Colours the drifting points that move fast, see DriftingEcho. Requires: a frame of Doppler.
   void colour_drifting(Frame& frame) const noexcept;
+  /// Colours blood and tissue, see FlowDetector. Requires: a frame of Doppler.
+  void colour_flow(std::span<const float> time_gain, BlockWorkers& workers, Frame& frame) const {
+    flow_.colour(time_gain, workers, frame);
+  }
 
   /// Where the lines that see the needle's tip show it, frame P; empty when none does.
   [[nodiscard]] std::optional<Vec3> find_shown_tip() const noexcept;
@@ -105,6 +113,7 @@ class Acquisition {
   BeamSpread spread_;
   ApertureLight light_;  // looks other than raw
   DriftingEcho drifting_;
+  FlowDetector flow_;
   Pose X_PJ_ = Pose::Identity();
   std::vector<PlacedLine> lines_;     // (n_lines)
   std::vector<LineScratch> scratch_;  // (workers)

@@ -123,10 +123,13 @@ void DriftingEcho::colour(std::span<const PlacedLine> lines, double limit,
       const double end =
           std::min(static_cast<double>(frame.shadow_from[l]), static_cast<double>(n_samples) - 1);
       const auto row = std::span(frame.velocity).subspan(l * n_samples, n_samples);
+      const auto power = std::span(frame.motion_db).subspan(l * n_samples, n_samples);
       for (double s = std::max(0.0, std::ceil(middle - reach)); s <= std::min(middle + reach, end);
            ++s) {
         float& shown = row[static_cast<std::size_t>(s)];
-        if (!(std::abs(shown) > std::abs(toward))) shown = static_cast<float>(toward);
+        if (std::abs(shown) > std::abs(toward)) continue;
+        shown = static_cast<float>(toward);
+        power[static_cast<std::size_t>(s)] = static_cast<float>(20 * std::log10(point.amplitude));
       }
     }
   }

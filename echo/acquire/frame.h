@@ -57,6 +57,9 @@ struct Frame {
   /// As in_phase: m/s toward the probe of what moves, wrapped at doppler_limit; NaN where nothing
   /// does. Empty unless doppler is on.
   std::vector<float> velocity;
+  /// As velocity: how strong the echo of what moves is, dB after time gain compensation; says
+  /// something where velocity is a number.
+  std::vector<float> motion_db;
 };
 
 }  // namespace artus

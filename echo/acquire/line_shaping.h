@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "artus/detail/echo/acquire/acquisition.h"
@@ -25,11 +26,14 @@ class LineShaping {
   /// The time gain of later frames. Cost: some 10 us.
   void set_time_gain(const LiveSettings& live);
 
+  /// (n_samples), of the last frame.
+  [[nodiscard]] std::span<const float> time_gain() const noexcept { return time_gain_; }
+
   /// Fills in_phase, quadrature and envelope of the frame.
   void run(const Acquisition& acquired, const EchoBody& body, BlockWorkers& workers, Frame& frame);
 
-  /// Fills velocity of the frame for a needle that moves at `v_P` (m/s, frame P); nothing moves
-  /// without one. Requires: Doppler is on.
+  /// Fills velocity and motion_db of the frame for a needle that moves at `v_P` (m/s, frame P);
+  /// nothing moves without one. Requires: Doppler is on.
   void find_motion(const Acquisition& acquired, const std::optional<Vec3>& v_P,
                    BlockWorkers& workers, Frame& frame);
 

@@ -51,6 +51,7 @@ EchoPipeline::EchoPipeline(const Transducer& transducer, const ImageSettings& se
     stage->resize(size);
   frame_.needle_light.resize(size, 1.0F);
   if (settings.doppler) frame_.velocity.resize(size);
+  if (settings.doppler) frame_.motion_db.resize(size);
   frame_.width = display_.converter().width();
   frame_.height = display_.converter().height();
   frame_.pixel = settings.pixel;
@@ -81,6 +82,7 @@ void EchoPipeline::render(const EchoBody& body, const Pose& X_JP,
                           const std::optional<NeedleView>& needle) {
   times_ = {};
   frame_.status = FrameStatus::kOk;
+  acquisition_.begin_frame(body);
   if (compound_.views().empty()) {
     hear(body, {transducer_, X_JP, needle});
   } else {
@@ -103,6 +105,7 @@ void EchoPipeline::render(const EchoBody& body, const Pose& X_JP,
     if (needle) v_P = X_JP.linear().transpose() * needle->v_JN;
     shaping_.find_motion(acquisition_, v_P, workers_, frame_);
     acquisition_.colour_drifting(frame_);
+    acquisition_.colour_flow(shaping_.time_gain(), workers_, frame_);
   }
   const StageClock clock(times_.display);
   display_.show(workers_, X_JP, frame_);

@@ -35,6 +35,7 @@ std::vector<RegionAcoustics> with_courses_of(const std::vector<RegionAcoustics>&
   std::vector<RegionAcoustics> regions = make_region_acoustics(joint, transducer);
   for (std::size_t i = 0; i < regions.size() && i < known.size(); ++i) {
     regions[i].course = known[i].course;
+    regions[i].vessel = known[i].vessel;
     regions[i].continues_as = known[i].continues_as;
     regions[i].junction = known[i].junction;
   }
@@ -135,6 +136,11 @@ void Renderer::set_drifting_points(std::span<const DriftingPoint> points) {
                   "a drifting point is not finite");
   }
   impl_->body.drifting.assign(points.begin(), points.end());
+}
+
+void Renderer::set_flow_time(std::optional<double> time) {
+  ARTUS_REQUIRE(!time || std::isfinite(*time), "the time is not finite");
+  impl_->body.flow_time = time;
 }
 
 void Renderer::set_needle_tracks(std::vector<NeedleTrack> tracks) {

@@ -66,6 +66,10 @@ class Renderer {
   /// passes over the interfaces for a body that is new.
   void set_settling(const Settling& settling);
 
+  /// The time (s) of the next frame, at which colour Doppler looks for blood that runs and for
+  /// tissue that moved since the frame before; none: it looks for the needle alone.
+  void set_flow_time(std::optional<double> time);
+
   /// Gain, range, time gain, smoothing and persistence of the next frame on. Requires: valid.
   /// Cost: some 10 us.
   void set_live(const LiveSettings& live);

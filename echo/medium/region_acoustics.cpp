@@ -103,6 +103,10 @@ void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regio
       case TissueKind::nerve:
         add_fibres(joint, static_cast<RegionId>(i), depth, regions[i]);
         break;
+      case TissueKind::fluid:
+        if (const auto vessel = find_vessel(joint, static_cast<RegionId>(i)))
+          regions[i].vessel = std::make_shared<const Vessel>(*vessel);
+        break;
       default:
         break;
     }

@@ -9,6 +9,7 @@
 
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/echo/medium/material_map.h"
+#include "artus/detail/echo/medium/vessel.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {
@@ -30,6 +31,8 @@ struct RegionAcoustics {
   Vec3 sheet_normal = Vec3::UnitZ();
   /// Coordinates along curved fibres or septa; none: straight along `fibre` and `sheet_normal`.
   std::shared_ptr<const MaterialMap> course;
+  /// Blood that runs in it, see colour Doppler; none: nothing does.
+  std::shared_ptr<const Vessel> vessel;
   /// Muscle and its tendon: what the fibres go on as, and where (m, the course's third coordinate).
   RegionId continues_as = kOutside;
   double junction = 0;
@@ -55,7 +58,8 @@ struct RegionAcoustics {
 [[nodiscard]] std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
                                                                  const Transducer& transducer);
 
-/// Gives the regions with fibres or septa their course through the joint's tetrahedra. Cost: some
+/// Gives the regions with fibres or septa their course through the joint's tetrahedra, and vessels
+/// their blood. Cost: some
 /// 0.1 s for a joint of a few dozen structures, on all threads of the calling arena.
 void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regions);
 

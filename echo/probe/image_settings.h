@@ -25,6 +25,13 @@ inline constexpr std::array<const char*, 3> kLookNames{"raw", "clinical", "compo
   return kLookNames[static_cast<std::size_t>(look)];
 }
 
+/// What of motion is laid over the grey.
+enum class MotionShown : std::uint32_t {
+  none,
+  velocity,  ///< colour Doppler: toward the probe or away, and how fast
+  power,     ///< power Doppler: how strong the echo of what moves is, whichever way
+};
+
 /// Grey over the level of an echo, of any look but raw: one value for each eighth of the dynamic
 /// range, 0 black .. 1 white, straight in between. Values of `devices/grey-curves/clinical.toml`;
 /// see grey_curve_file.h.
@@ -64,7 +71,7 @@ struct TableSettings {
   double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
   int compound_angles = 1;          ///< odd; frames steered apart whose envelopes are averaged
   double compound_spread = 0.14;    ///< rad between the outermost steerings
-  bool doppler = false;             ///< also find what moves (the needle); see Frame::velocity
+  bool doppler = false;             ///< also find what moves; see Frame::velocity
   double doppler_limit = 0.1;       ///< m/s along the beam where the velocity wraps round
   bool refraction = true;           ///< bend scanlines by Snell's law
   bool reverberation = true;        ///< first repeat between strong interfaces and the face

@@ -68,6 +68,7 @@ struct KnobRanges {
   static constexpr Range dynamic_range_db{30, 90};
   static constexpr Range frequency{5e6, 18e6};          // Hz
   static constexpr Range elevation_focus{5e-3, 50e-3};  // m
+  static constexpr Range persistence{0, 0.9};
 };
 
 }  // namespace artus

@@ -20,7 +20,7 @@ constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
 constexpr double kFar = 50;       // m from the joint's origin, of any pose that a device can make
 constexpr double kSoftest = 1e3;  // m/N, of any tissue
 
-static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 528 &&
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 624 &&
                   sizeof(PacketRecord) == 3136,
               "as documented");
 
@@ -174,9 +174,14 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
       return "invalid injected site";
   if (!is_load(input.load)) return "invalid needle load";
   const ImageControls& c = input.controls;
-  const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
-                          c.frequency, c.elevation_focus};
-  if (!all_finite(knobs)) return "image control that is not finite";
+  const double knobs[] = {c.depth,     c.gain_db,         c.tgc_db_cm_mhz, c.dynamic_range_db,
+                          c.frequency, c.elevation_focus, c.persistence};
+  if (!all_finite(knobs) || !std::all_of(c.grey_curve.grey.begin(), c.grey_curve.grey.end(),
+                                         [](double grey) { return std::isfinite(grey); }))
+    return "image control that is not finite";
+  if (c.look > Look::compound || c.motion > MotionShown::power || c.compound_angles > 99 ||
+      c.more_reserved != 0)
+    return "image control out of its range";
   return std::isinf(record.tip_contrast) ? "infinite tip contrast" : nullptr;
 }
 

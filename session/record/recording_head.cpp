@@ -20,7 +20,8 @@ namespace {
 // device's own limits of the probe's hand and its boxes, how long a device's pose is held,
 // and `given` counts what left the needle forward, so that a replay of before would differ.
 // 15: beams between beams, and every second plane's scatterers: pictures are others.
-constexpr int kVersion = 15;
+// 16: look, grey curve, compounding, persistence and Doppler are turned in a session.
+constexpr int kVersion = 16;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

@@ -248,10 +248,10 @@ std::ptrdiff_t coloured_pixels(const std::shared_ptr<const Scene>& scene, std::u
   params.transducer.n_lines = 128;
   params.image.doppler = true;
   ImageCore core(scene, params);
-  core.set_motion_wanted(true);
   for (std::uint64_t i = 1; i <= flowing + still; ++i) {
     FrameInput input;
     input.controls = controls_of(params);
+    input.controls.motion = MotionShown::velocity;
     input.X_JP = to_plain(scene->joint().X_JP_default);
     input.X_JN = to_plain(make_pose(Vec3(0, 0, 23e-3), Vec3(1, 0, 1), Vec3::UnitY()));
     input.has_probe = 1;

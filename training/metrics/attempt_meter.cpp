@@ -24,7 +24,7 @@ void add_raw(std::vector<Metric>& out, const std::vector<TrackPoint>& track,
 AttemptMeter::AttemptMeter(std::shared_ptr<const Scene> scene, MeterOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
-      finder_(options_.transducer, options_.image_depth, options_.needle),
+      finder_(options_.transducer, options_.image_depth, options_.needle, options_.look),
       needle_(options_.longest),
       probe_(options_.longest),
       forces_(scene_->joint().regions.size()) {}
@@ -46,7 +46,8 @@ AttemptMeasures AttemptMeter::measure() const {
                          options_.image_depth);
   for (const TrackPoint& point : out.probe) search.look(*scene_, point.time, pose_of(point));
   out.sought.assign(search.sought().begin(), search.sought().end());
-  const AttemptView view{*scene_, options_, out, images_, forces_.empty(), forces_.touch_count()};
+  const AttemptView view{
+      *scene_, options_, out, images_, coloured_, forces_.empty(), forces_.touch_count()};
   out.metrics = compute_metrics(view);
   out.events = find_events(view);
   add_raw(out.raw, out.needle, scene_, true);

@@ -22,6 +22,7 @@ struct MeterOptions {
   Transducer transducer;
   double image_depth = 40e-3;  ///< m
   NeedleShape needle;
+  Look look = Look::clinical;  ///< of the picture in which the tip is looked for
   Goals goals;
   double longest = 1800;  ///< s that are kept
 };
@@ -73,6 +74,8 @@ class AttemptMeter {
   ARTUS_REALTIME void add_felt(const FeltTick& tick) noexcept { forces_.add(tick); }
   ARTUS_REALTIME void add_syringe(const SyringeTick& tick) noexcept { syringe_.add(tick); }
   void add_sight(const ImageSight& sight) { images_.push_back(sight); }
+  /// A picture of colour or power Doppler at `time`, s.
+  void add_coloured(double time) { coloured_.push_back(time); }
 
   [[nodiscard]] const MeterOptions& options() const noexcept { return options_; }
 
@@ -90,6 +93,7 @@ class AttemptMeter {
   ForceLayers forces_;
   SyringeCourse syringe_;
   std::vector<ImageSight> images_;
+  std::vector<double> coloured_;  // s
 };
 
 }  // namespace artus

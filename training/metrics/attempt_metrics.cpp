@@ -139,6 +139,21 @@ void put_course(Sheet& sheet, const AttemptView& view) {
       "ends when the shaft keeps within 1 degree for 0.5 s");
 }
 
+/// s of Doppler before the needle went in, from one picture to the next.
+double doppler_before_needle(const AttemptView& view) {
+  constexpr double kSame = 0.5;  // s; pictures further apart are not of one look
+  const auto& course = view.measures.course;
+  const auto entry = std::find_if(course.begin(), course.end(),
+                                  [](const CoursePoint& point) { return point.inside(); });
+  double looked = 0;
+  for (std::size_t i = 1; i < view.coloured.size(); ++i) {
+    if (entry != course.end() && view.coloured[i] >= entry->time) break;
+    const double step = view.coloured[i] - view.coloured[i - 1];
+    if (step < kSame) looked += step;
+  }
+  return looked;
+}
+
 void put_sight(Sheet& sheet, const AttemptView& view) {
   const SightTotals sum = sum_sight(view.measures.course, view.measures.sights);
   const bool there = sum.time > 0;
@@ -175,6 +190,8 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
       "both", "unseen_entry_mm", "mm", there ? Value(sum.outside_picture / kMillimetre) : Value(),
       "distance advanced in tissue before the tip first came between the picture's edges; 0 when "
       "it never did");
+  sheet.put("probe", "doppler_before_s", "s", doppler_before_needle(view),
+            "time with colour or power Doppler on before the needle went in");
   std::vector<double> face;
   double drift = 0;
   double needling = 0;
@@ -415,7 +432,7 @@ std::vector<std::string> metric_names() {
   AttemptMeasures nothing;
   nothing.sought.resize(1);
   std::vector<std::string> names;
-  for (const Metric& m : compute_metrics({scene, options, nothing, {}, true, 0}))
+  for (const Metric& m : compute_metrics({scene, options, nothing, {}, {}, true, 0}))
     if (m.name.find(':') == std::string::npos &&
         std::find(names.begin(), names.end(), m.name) == names.end())
       names.push_back(m.name);

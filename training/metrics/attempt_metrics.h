@@ -13,6 +13,7 @@ struct AttemptView {
   const MeterOptions& options;
   const AttemptMeasures& measures;
   std::span<const ImageSight> images;
+  std::span<const double> coloured;  ///< s, times of pictures of Doppler, ascending
   bool no_forces = false;
   std::size_t touch_count = 0;
 };

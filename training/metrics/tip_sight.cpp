@@ -43,13 +43,20 @@ const char* to_string(SightLoss loss) noexcept {
 }
 
 TipSightFinder::TipSightFinder(const Transducer& transducer, double depth, const NeedleShape& shape,
-                               double speckle_db)
+                               Look look, double speckle_db)
     : transducer_(transducer),
       depth_(depth),
       shape_(shape),
+      look_(look),
       speckle_db_(speckle_db),
       beam_(transducer, depth),
-      flat_db_(decibels(needle_reflectivity(shape, 0, specular_phase(transducer, kSpeed)))) {}
+      flat_db_(echo_db(0)) {}
+
+double TipSightFinder::echo_db(double face_angle) const noexcept {
+  return decibels(look_ == Look::raw
+                      ? needle_reflectivity(shape_, face_angle, specular_phase(transducer_, kSpeed))
+                      : needle_on_screen(shape_, face_angle));
+}
 
 bool TipSightFinder::in_sector(const Vec3& tip_P) const noexcept {
   if (transducer_.radius > 0) {
@@ -71,10 +78,9 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
   sight.half_width = beam_.elevation_width(std::clamp(tip.z(), 0.0, depth_)) / 2;
   sight.plane_angle = std::asin(std::clamp(axis.y(), -1.0, 1.0));
   sight.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
-  const double echo =
-      needle_reflectivity(shape_, sight.face_angle, specular_phase(transducer_, kSpeed));
-  sight.contrast_db = decibels(echo) - speckle_db_;
-  sight.angle_db = flat_db_ - decibels(echo);
+  const double echo = echo_db(sight.face_angle);
+  sight.contrast_db = echo - speckle_db_;
+  sight.angle_db = flat_db_ - echo;
   const bool curved = transducer_.radius > 0;
   const Vec3 centre(0, 0, -transducer_.radius);
   const Vec3 face =

@@ -4,6 +4,7 @@
 
 #include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/detail/training/metrics/image_sight.h"
+#include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
@@ -36,24 +37,27 @@ struct TipSight {
 
 /// Tells whether a tip can be seen: the face couples (less than 5 mm of air on the beam to the
 /// tip), the tip lies between the outermost lines, no bone lies between face and tip, and the
-/// shaft's echo, less by its angle ([SchafhalterZoppoth2004]'s law) and by how far the tip is from
+/// shaft's echo, less by its angle (the law of the look: [VanDeBerg2019] as scanners show it, or
+/// [SchafhalterZoppoth2004] in the raw one) and by how far the tip is from
 /// the plane (the beam's two-way profile), stands 6 dB above muscle's speckle. It is the truth that
 /// simulated hands, metrics and causes of faults share.
 class TipSightFinder {
  public:
   /// Requires: valid transducer. `depth`: m of the picture. `speckle_db`: as ImageSettings.
   TipSightFinder(const Transducer& transducer, double depth, const NeedleShape& shape,
-                 double speckle_db = -40);
+                 Look look = Look::clinical, double speckle_db = -40);
 
   /// Requires: rigid poses. Cost: one query.
   [[nodiscard]] TipSight look(const Scene& scene, const Pose& X_JP, const Pose& X_JN) const;
 
  private:
   [[nodiscard]] bool in_sector(const Vec3& tip_P) const noexcept;
+  [[nodiscard]] double echo_db(double face_angle) const noexcept;
 
   Transducer transducer_;
   double depth_;
   NeedleShape shape_;
+  Look look_;
   double speckle_db_;
   BeamProfile beam_;
   double flat_db_;  // echo of a shaft along the face

@@ -54,7 +54,8 @@ std::vector<std::uint8_t> displayed_colour(const ImageSnapshot& image, const Dis
     if (moves && image.motion[i] != 0) {
       const double u = (static_cast<double>(i % width) + 0.5) / image.width;
       const double v = (static_cast<double>(i / width) + 0.5) / image.height;
-      if (look.box.contains(u, v)) rgb = motion_colour(image.motion[i]);
+      if (look.box.contains(u, v))
+        rgb = motion_colour(image.motion[i], image.input.controls.motion);
     }
     std::copy(rgb.begin(), rgb.end(), shown.begin() + static_cast<std::ptrdiff_t>(3 * i));
   }

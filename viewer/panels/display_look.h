@@ -27,7 +27,12 @@ struct DisplayLook {
   std::array<double, 8> tgc_db{};       ///< dB, linear between the middles of eight equal strips
   bool flipped = false;                 ///< left to right
   bool colour = false;                  ///< Doppler, in its box
+  bool power = false;                   ///< Doppler of power, not of velocity
   ColourBox box;
+  [[nodiscard]] MotionShown motion() const noexcept {
+    if (!colour) return MotionShown::none;
+    return power ? MotionShown::power : MotionShown::velocity;
+  }
   friend bool operator==(const DisplayLook&, const DisplayLook&) = default;
 };
 

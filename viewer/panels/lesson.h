@@ -16,6 +16,7 @@ namespace artus {
 struct LessonView {
   const HapticSnapshot& now;    ///< the last state of a living device
   const NeedleReading& needle;  ///< in `now`
+  bool doppler = false;         ///< the picture shows what moves
 };
 
 /// A step of a task. `known`: people may know already whether it is done.

@@ -15,8 +15,9 @@ struct ScannerPreset {
   double elevation_focus;  ///< m
 };
 /// assumed: what musculoskeletal guides recommend for the depth of each region.
-inline constexpr std::array<ScannerPreset, 3> kPresets{
+inline constexpr std::array<ScannerPreset, 4> kPresets{
     {{msgid("shoulder"), 40e-3, 12e6, 20e-3},
+     {msgid("knee"), 45e-3, 10e6, 25e-3},
      {msgid("deep (hip)"), 70e-3, 7e6, 40e-3},
      {msgid("shallow (hand)"), 25e-3, 16e6, 10e-3}}};
 

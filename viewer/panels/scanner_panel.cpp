@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/echo/probe/setting_ranges.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/presets.h"
@@ -44,6 +45,42 @@ void draw_knobs(ViewState& state) {
   draw_knob(state, msgid("frequency"), c.frequency, {KnobRanges::frequency, 1e6, 0, "MHz"});
   draw_knob(state, msgid("focus"), c.elevation_focus,
             {KnobRanges::elevation_focus, kMillimetre, 0, "mm"});
+  ImGui::PopItemWidth();
+}
+
+/// A list to choose from; the index that was chosen, or `now`.
+template <class NameOf>
+std::size_t choose(ViewState& state, const char* label, std::size_t now, std::size_t count,
+                   const NameOf& name_of) {
+  ImGui::SetNextItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
+  if (!ImGui::BeginCombo(translate(state, label), now < count ? name_of(now) : "")) return now;
+  for (std::size_t i = 0; i < count; ++i)
+    if (ImGui::Selectable(name_of(i), i == now)) now = i;
+  ImGui::EndCombo();
+  return now;
+}
+
+/// What the scanner's back end makes of the echoes. None of it stops the picture.
+void draw_back_end(ViewState& state) {
+  static constexpr std::array kLooks{msgid("raw"), msgid("clinical"), msgid("compound")};
+  ImageControls& c = state.controls;
+  c.look = static_cast<Look>(choose(state, msgid("look"), static_cast<std::size_t>(c.look),
+                                    kLooks.size(),
+                                    [&](std::size_t i) { return translate(state, kLooks[i]); }));
+  const auto& curves = state.grey_curves;
+  const auto same = std::find_if(curves.begin(), curves.end(), [&](const GreyCurvePreset& curve) {
+    return curve.curve == c.grey_curve;
+  });
+  const auto at = static_cast<std::size_t>(same - curves.begin());
+  const std::size_t curve = choose(state, msgid("grey curve"), at, curves.size(),
+                                   [&](std::size_t i) { return curves[i].name.c_str(); });
+  if (curve < curves.size()) c.grey_curve = curves[curve].curve;
+  static constexpr std::array kAngles{"1", "3", "5"};
+  const std::size_t angles = choose(state, msgid("compounded angles"), c.compound_angles / 2,
+                                    kAngles.size(), [&](std::size_t i) { return kAngles[i]; });
+  c.compound_angles = static_cast<std::uint32_t>(2 * angles + 1);
+  ImGui::PushItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
+  draw_knob(state, msgid("persistence"), c.persistence, {KnobRanges::persistence, 0.01, 0, "%"});
   ImGui::PopItemWidth();
 }
 
@@ -90,6 +127,7 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   const PanelScope scope(Panel::scanner, msgid("Scanner"), state);
   if (!scope) return;
   draw_knobs(state);
+  draw_back_end(state);
   draw_time_gain(state);
   const bool frozen = in.session->frozen();
   action_button(state, frozen ? msgid("continue") : msgid("freeze"), Action::freeze, frozen);
@@ -110,6 +148,10 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   row_button(state, msgid("flip left-right"), Action::flip, state.look.flipped);
   row_button(state, msgid("dual"), Action::dual, state.dual);
   row_button(state, msgid("colour"), Action::doppler, state.look.colour);
+  if (state.look.colour) {
+    next_in_row(ImGui::CalcTextSize(translate(state, msgid("power"))).x + 40);
+    ImGui::Checkbox(translate(state, msgid("power")), &state.look.power);
+  }
   row_button(state, msgid("true scale"), Action::true_scale, state.true_scale);
   row_button(state, msgid("clear calipers"), Action::clear_calipers);
   const std::string zoom = std::string(translate(state, "zoom")) + " " +

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/viewer/input/hand_control.h"
 #include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/joint3d/body_mark.h"
@@ -41,6 +42,7 @@ struct ViewState {
   bool true_scale = false;         ///< one millimetre of tissue is one millimetre of the screen
   double pixels_per_mm = 3.78;     ///< of the screen
   ImageControls controls;
+  std::vector<GreyCurvePreset> grey_curves;  ///< to choose from
   DisplayLook look;
   PictureView view;  ///< what is seen of the picture
   std::string patient;

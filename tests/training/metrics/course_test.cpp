@@ -262,6 +262,25 @@ TEST(TipSight, SaysWhyATipIsNotSeen) {
   EXPECT_NEAR(look(Vec3(0, -3e-3, 20e-3), flat).offset, -3e-3, 1e-12);
 }
 
+TEST(TipSight, GoesByTheNeedleOfTheLook) {
+  const auto scene = test::make_layered_scene();
+  const Pose X_JP = make_pose(Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitX());
+  for (const double degrees : {5.0, 15.0, 30.0, 45.0, 60.0}) {
+    const double angle = degrees * kDegree;
+    const Pose X_JN =
+        make_pose(Vec3(0, 0, 20e-3), Vec3(std::cos(angle), 0, std::sin(angle)), Vec3::UnitY());
+    const auto contrast = [&](Look l) {
+      return TipSightFinder(Transducer{}, 40e-3, NeedleShape{}, l)
+          .look(*scene, X_JP, X_JN)
+          .contrast_db;
+    };
+    EXPECT_NEAR(contrast(Look::clinical), 20 * std::log10(needle_on_screen({}, angle)) + 40, 1e-9);
+    EXPECT_EQ(contrast(Look::compound), contrast(Look::clinical));
+    // The measured peak is narrow and stands on a plateau.
+    EXPECT_EQ(contrast(Look::clinical) > contrast(Look::raw), degrees > 35) << degrees;
+  }
+}
+
 TEST(ForceLayers, TheSpeedOfATouchIsTheHandsThoughPosesComeMoreSlowlyThanTicks) {
   for (const int ticks_a_pose : {1, 10, 33}) {
     ForceLayers forces(4);
