@@ -189,13 +189,13 @@ void FlowDetector::colour_line(int l, std::span<const float> time_gain, Frame& f
     if (blood && heard > static_cast<double>(kHeard) * kHeard) {
       power = heard;
       velocity += std::atan2(im, re) / std::numbers::pi * limit_;
-    } else if (flash) {
+    } else if (toward[node] != 0) {
       const double echo =
           frame.in_phase[i] * frame.in_phase[i] + frame.quadrature[i] * frame.quadrature[i];
       if (echo * tg2 > static_cast<double>(kTissueHeard) * kTissueHeard) power = echo * tg2;
     }
+    if (power <= 0) continue;
     const double wrapped = wrap_velocity(velocity, limit_);
-    if (power <= 0 || !may_show_motion(std::abs(wrapped), limit_)) continue;
     frame.velocity[i] = static_cast<float>(wrapped);
     frame.motion_db[i] = static_cast<float>(10 * std::log10(power));
   }

@@ -68,8 +68,7 @@ Vec3 middle_of(const CompiledJoint& joint, RegionId region) {
 }  // namespace
 
 Vec3 Vessel::direction(const Vec3& p_J) const noexcept {
-  const MaterialPoint point = course.evaluate(p_J);
-  const Vec3 along = Vec3(point.gradient.row(0)).cross(Vec3(point.gradient.row(1)));
+  const Vec3 along = course.evaluate(p_J).gradient.row(2);
   const double length = along.norm();
   return length > 0 ? Vec3(towards / length * along) : Vec3::Zero();
 }

@@ -7,6 +7,9 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -22,7 +25,7 @@ constexpr double kRadius = 4e-3;  // m
 constexpr RegionId kVessel = kFirstRegion;
 const float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Coordinates that run along x: (z, y, x) of the place, so that row 0 x row 1 is -x.
+/// Coordinates (z, y, x) of the place: the third runs along x.
 MaterialMap along_x() {
   MaterialMap::Coefficients coefficients = MaterialMap::Coefficients::Zero();
   // Which terms are linear is read from their slopes at the origin.
@@ -103,7 +106,7 @@ class Flow : public testing::Test {
 };
 
 TEST_F(Flow, BloodInTheMiddleShowsItsVelocityAlongTheBeam) {
-  put_vessel(true, -1);  // blood toward +x
+  put_vessel(true, 1);  // blood toward +x
   FlowDetector flow(transducer_, settings_, *shape_);
   const double systole = 0.125;
   const double peak = kArterialRate * 2 * kRadius;
@@ -119,14 +122,14 @@ TEST_F(Flow, BloodInTheMiddleShowsItsVelocityAlongTheBeam) {
 }
 
 TEST_F(Flow, WhatRunsAcrossTheBeamShowsNoColour) {
-  put_vessel(true, -1);
+  put_vessel(true, 1);
   FlowDetector flow(transducer_, settings_, *shape_);
   see(flow, *beam(0, 0), 0.125);
   for (int s = 0; s < settings_.n_samples; ++s) ASSERT_TRUE(std::isnan(at(16, s))) << s;
 }
 
 TEST_F(Flow, TheProfileIsAParabolaAndFallsToTheSide) {
-  put_vessel(true, -1);
+  put_vessel(true, 1);
   settings_.doppler_limit = 2;
   FlowDetector flow(transducer_, settings_, *shape_);
   const double angle = 30 * kDegree;
@@ -141,7 +144,7 @@ TEST_F(Flow, TheProfileIsAParabolaAndFallsToTheSide) {
 }
 
 TEST_F(Flow, FastBloodWrapsRoundAtTheLimit) {
-  put_vessel(true, -1);
+  put_vessel(true, 1);
   settings_.doppler_limit = 0.5;
   FlowDetector flow(transducer_, settings_, *shape_);
   see(flow, *beam(30 * kDegree, 0), 0.125);
@@ -187,6 +190,60 @@ TEST_F(Flow, TissueThatMovesPastTheFaceFlashesAndAtRestDoesNot) {
   // Nor does one for which no time is given.
   see(flow, *beam(0, 0, Vec3(0, 0, -1e-3)), std::nullopt);
   EXPECT_TRUE(std::isnan(at(16, 200)));
+}
+
+/// A round tube along z, `length` m, of tissue `name`, cut off at both ends by the border of the
+/// region of interest, as tetrahedra.
+CompiledJoint make_tube(const std::string& name, double length) {
+  constexpr int kRound = 16;
+  constexpr int kAlong = 24;
+  CompiledJoint joint;
+  joint.tissues.resize(1);
+  joint.tissues[0].name = name;
+  joint.tissues[0].acoustic.kind = TissueKind::fluid;
+  joint.regions = {
+      {"outside", 0, Vec3::Zero()}, {"beyond", 0, Vec3::Zero()}, {"vessel", 0, Vec3::Zero()}};
+  for (int k = 0; k <= kAlong; ++k) {
+    const double z = length * (static_cast<double>(k) / kAlong - 0.5);
+    joint.mesh.vertices.emplace_back(0, 0, z);
+    for (int i = 0; i < kRound; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kRound;
+      joint.mesh.vertices.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), z);
+    }
+  }
+  const auto at = [](int k, int i) {
+    return static_cast<std::uint32_t>(k * (kRound + 1) + (i < 0 ? 0 : 1 + i % kRound));
+  };
+  const auto add = [&joint](std::array<std::uint32_t, 4> v) {
+    joint.mesh.tetrahedra.push_back(v);
+    joint.mesh.regions.push_back(kVessel);
+    if (tet_volume(joint.mesh, joint.mesh.tetrahedra.size() - 1) < 0)
+      std::swap(joint.mesh.tetrahedra.back()[0], joint.mesh.tetrahedra.back()[1]);
+  };
+  for (int k = 0; k < kAlong; ++k)
+    for (int i = 0; i < kRound; ++i) {
+      add({at(k, -1), at(k, i), at(k, i + 1), at(k + 1, -1)});
+      add({at(k, i), at(k, i + 1), at(k + 1, -1), at(k + 1, i)});
+      add({at(k, i + 1), at(k + 1, -1), at(k + 1, i), at(k + 1, i + 1)});
+      joint.mesh.interfaces.push_back({{at(k, i), at(k, i + 1), at(k + 1, i)}, 0, kVessel});
+      joint.mesh.interfaces.push_back({{at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)}, 0, kVessel});
+    }
+  return joint;
+}
+
+TEST(FindVessel, ATubeHasItsRadiusAndItsBloodRunsAlongIt) {
+  const auto artery = find_vessel(make_tube("artery", 80e-3), kVessel);
+  const auto vein = find_vessel(make_tube("vein", 80e-3), kVessel);
+  ASSERT_TRUE(artery && vein);
+  EXPECT_TRUE(artery->is_artery);
+  EXPECT_FALSE(vein->is_artery);
+  EXPECT_NEAR(artery->radius, kRadius, 0.03 * kRadius);  // sixteen sides are not round
+  for (const double x : {-3e-3, -1e-3, 0.0, 1e-3, 3e-3})
+    for (const double z : {-25e-3, 0.0, 25e-3}) {
+      EXPECT_LT(artery->direction(Vec3(x, 1e-3, z)).z(), -0.99) << x << ' ' << z;
+      EXPECT_GT(vein->direction(Vec3(x, 1e-3, z)).z(), 0.99) << x << ' ' << z;
+    }
+  EXPECT_FALSE(find_vessel(make_tube("synovial_fluid", 80e-3), kVessel).has_value());
 }
 
 }  // namespace
