@@ -19,15 +19,15 @@ double wrap_velocity(double toward, double limit) noexcept {
 
 void detect_motion(std::span<const float> re, std::span<const float> im,
                    std::span<const float> time_gain, double toward, double limit,
-                   std::span<float> velocity, std::span<float> power_db) noexcept {
+                   const MotionSpan& found) noexcept {
   const double wrapped = wrap_velocity(toward, limit);
   const bool passes = std::abs(wrapped) > kWallFilter * limit;
   const auto shown = static_cast<float>(wrapped);
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
+  for (std::size_t i = 0; i < found.velocity.size(); ++i) {
     const float power = (re[i] * re[i] + im[i] * im[i]) * time_gain[i] * time_gain[i];
     const bool moves = passes && power > kThreshold * kThreshold;
-    velocity[i] = moves ? shown : std::numeric_limits<float>::quiet_NaN();
-    power_db[i] = moves ? 10 * std::log10(power) : 0;
+    found.velocity[i] = moves ? shown : std::numeric_limits<float>::quiet_NaN();
+    found.power_db[i] = moves ? 10 * std::log10(power) : 0;
   }
 }
 

@@ -4,13 +4,19 @@
 
 namespace artus {
 
+/// What moves on one scanline, see Frame::velocity and Frame::motion_db.
+struct MotionSpan {
+  std::span<float> velocity;
+  std::span<float> power_db;
+};
+
 /// Colour Doppler of one scanline: what moves at `toward` (m/s, toward the probe) shows where its
 /// echo (re, im) is strong enough after `time_gain`, unless it is too slow for the wall filter.
 /// Velocities beyond `limit` wrap round, as the phase between two pulses does. Fills `velocity`
-/// (m/s; NaN: nothing moves) and `power_db`. Spans have one length.
+/// (m/s; NaN: nothing moves) and `power_db` of `found`. Spans have one length.
 void detect_motion(std::span<const float> re, std::span<const float> im,
                    std::span<const float> time_gain, double toward, double limit,
-                   std::span<float> velocity, std::span<float> power_db) noexcept;
+                   const MotionSpan& found) noexcept;
 
 /// m/s as shown: velocities beyond `limit` wrap round.
 [[nodiscard]] double wrap_velocity(double toward, double limit) noexcept;

@@ -12,12 +12,21 @@ namespace artus {
 namespace {
 
 constexpr double kLongest = 0.5;         // s; frames further apart tell of no motion
-constexpr float kHeard = 3e-4F;          // -70 dB after time gain, a packet's worth. assumed
+constexpr float kHeard = 1.6e-4F;        // -76 dB after time gain, a packet's worth. assumed
 constexpr float kTissueHeard = 5.6e-3F;  // -45 dB, as detect_motion. assumed
 constexpr double kPacket = 0.4e-3;       // m of depth that one estimate takes. assumed
 
-Vec3 middle_of(const BeamRun& run) noexcept {
-  return run.p_J + 0.5 * (run.end - run.begin) * run.step_J;
+/// Where what lies at `sample` of a run was at rest, m.
+Vec3 rest_at(const BeamTrace& trace, const BeamRun& run, double sample) noexcept {
+  if (run.n_knots == 0) return run.p_J + (sample - run.begin) * run.step_J;
+  const double share = (sample - run.begin) / std::max(1e-9, run.end - run.begin);
+  const double path = run.path_begin + share * (run.path_end - run.path_begin);
+  std::size_t k = run.first_knot;
+  while (k + 2 < run.first_knot + run.n_knots && trace.knots[k + 1].path < path) ++k;
+  const BeamKnot& a = trace.knots[k];
+  const BeamKnot& b = trace.knots[std::min(k + 1, run.first_knot + run.n_knots - 1)];
+  const double at = (path - a.path) / std::max(1e-9, b.path - a.path);
+  return a.rest_J + at * (b.rest_J - a.rest_J);
 }
 
 std::span<float> row(std::vector<float>& data, std::size_t l, std::size_t n) {
@@ -66,8 +75,8 @@ void FlowDetector::note(int l, const BeamTrace& trace, std::span<const RegionAco
       if (has_blood_[at] == 0) std::fill(re.begin(), re.end(), 0.0F);
       if (has_blood_[at] == 0) std::fill(im.begin(), im.end(), 0.0F);
       has_blood_[at] = 1;
-      add_blood(std::span(trace.runs).subspan(i, end - i), *acoustics.vessel,
-                coupling * speckle_ * acoustics.backscatter, re, im);
+      add_blood(trace, std::span(trace.runs).subspan(i, end - i), *acoustics.vessel,
+                coupling * speckle_ * acoustics.backscatter, {re, im});
     }
     i = end;
   }
@@ -80,21 +89,20 @@ void FlowDetector::note_tissue(const BeamTrace& trace, RestRow& rest) const noex
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
     const BeamRun& run = trace.runs[i];
     if (run.region == kOutside) continue;
-    const Vec3 moved = middle_of(run) - run.rest_middle_J;
     const double first = std::max(0.0, std::ceil(run.begin / spacing - 0.5));
     for (double k = first; k < kNodes && (k + 0.5) * spacing < run.end; ++k)
-      rest[static_cast<std::size_t>(k)] =
-          run.p_J + ((k + 0.5) * spacing - run.begin) * run.step_J - moved;
+      rest[static_cast<std::size_t>(k)] = rest_at(trace, run, (k + 0.5) * spacing);
   }
 }
 
-void FlowDetector::add_blood(std::span<const BeamRun> runs, const Vessel& vessel, double amplitude,
-                             std::span<float> re, std::span<float> im) const noexcept {
+void FlowDetector::add_blood(const BeamTrace& trace, std::span<const BeamRun> runs,
+                             const Vessel& vessel, double amplitude,
+                             EchoSpan blood) const noexcept {
   const double begin = runs.front().begin;
   const double end = runs.back().end;
   if (!(end > begin)) return;
   const BeamRun& half = runs[runs.size() / 2];
-  const Vec3 axis = vessel.direction(half.rest_middle_J);
+  const Vec3 axis = vessel.direction(rest_at(trace, half, 0.5 * (half.begin + half.end)));
   const double along = axis.dot(half.direction_J);
   // Across a round tube the profile along a chord is a parabola; how high depends on how far from
   // the axis the chord passes, which its length tells.
@@ -114,8 +122,8 @@ void FlowDetector::add_blood(std::span<const BeamRun> runs, const Vessel& vessel
       if (!may_show_motion(std::abs(velocity), limit_)) continue;
       const double power = amplitude * amplitude * std::exp(2 * gain);
       const double phase = std::numbers::pi * velocity / limit_;
-      re[static_cast<std::size_t>(s)] = static_cast<float>(power * std::cos(phase));
-      im[static_cast<std::size_t>(s)] = static_cast<float>(power * std::sin(phase));
+      blood.re[static_cast<std::size_t>(s)] = static_cast<float>(power * std::cos(phase));
+      blood.im[static_cast<std::size_t>(s)] = static_cast<float>(power * std::sin(phase));
     }
   }
 }

@@ -42,8 +42,8 @@ class FlowDetector {
   using RestRow = std::array<Vec3, kNodes>;  // m, frame J; not finite: no tissue
 
   void note_tissue(const BeamTrace& trace, RestRow& rest) const noexcept;
-  void add_blood(std::span<const BeamRun> runs, const Vessel& vessel, double amplitude,
-                 std::span<float> re, std::span<float> im) const noexcept;
+  void add_blood(const BeamTrace& trace, std::span<const BeamRun> runs, const Vessel& vessel,
+                 double amplitude, EchoSpan blood) const noexcept;
   [[nodiscard]] bool tissue_velocity(std::size_t l,
                                      std::array<float, kNodes>& toward) const noexcept;
   void colour_line(int l, std::span<const float> time_gain, Frame& frame) const;

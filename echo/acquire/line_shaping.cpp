@@ -139,8 +139,8 @@ void LineShaping::find_motion(const Acquisition& acquired, const std::optional<V
       shape_->across(acquired.moving_quadrature(), n_lines, l, wide);
       shape_->along(wide, im);
       const Vec3& direction = acquired.lines()[static_cast<std::size_t>(l)].line.direction;
-      detect_motion(re, im, time_gain_, -v_P->dot(direction), settings_.doppler_limit, re,
-                    row(frame.motion_db, l, n));
+      detect_motion(re, im, time_gain_, -v_P->dot(direction), settings_.doppler_limit,
+                    {re, row(frame.motion_db, l, n)});
     }
   });
 }

@@ -72,13 +72,18 @@ class Flow : public testing::Test {
     for (std::size_t i = 0; i < 3; ++i) {
       BeamRun& run = trace_->runs[i];
       run = {};
+      run.region = i == 1 ? kVessel : RegionId{1};
       run.begin = borders[i];
       run.end = borders[i + 1];
       run.step_J = step * direction;
       run.direction_J = direction;
       run.p_J = Vec3(0, aside, 20e-3) + (borders[i] - middle) * run.step_J;
-      run.rest_middle_J = run.p_J + 0.5 * (run.end - run.begin) * run.step_J - moved;
-      run.region = i == 1 ? kVessel : RegionId{1};
+      run.path_begin = step * run.begin;
+      run.path_end = step * run.end;
+      if (moved.norm() == 0) continue;
+      run.n_knots = 2;
+      trace_->knots[0] = {0, Vec3(0, aside, 20e-3) - middle * run.step_J - moved, moved.norm(), 0};
+      trace_->knots[1] = {1, trace_->knots[0].rest_J + direction, moved.norm(), 0};
     }
     trace_->n_runs = 3;
     return trace_.get();
