@@ -20,12 +20,13 @@ constexpr std::size_t kTailSamples = 16;  // samples
 constexpr double kHaze = 0.1;  // assumed: -20 dB at the face, +6 for both orders of the path,
                                // -6 because its second leg is out of focus
 // bone's line on screens. assumed: from pictures of bone under muscle
-constexpr double kCortex = 1.19e-3;      // m thick with the pulse, at the display's speed
+constexpr double kCortex = 1.01e-3;      // m thick with the pulse, at the display's speed
 constexpr double kCortexStep = 0.8;      // of the pulse's length
 constexpr double kCortexEven = 0.3;      // of its thickness that is as bright as its surface
-constexpr double kCortexFall = 2.5;      // Np over the rest
+constexpr double kCortexFall = 3.2;      // Np over the rest
 constexpr double kCortexGlitter = 0.2;   // rms unevenness
-constexpr double kCortexSlope = 0.6;     // power of the cosine by which it is deeper
+constexpr double kCortexSlope = 0.65;    // power of the cosine by which it is deeper
+constexpr double kCortexBeam = 0.65;     // of the beam's width, which a slope has seen already
 constexpr double kSteepestCortex = 0.3;  // cosine
 constexpr std::size_t kCortexEchoes = 32;
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
@@ -287,7 +288,11 @@ void LineSynthesis::add_cortex(const BeamEcho& echo, const ScatterView& view,
   std::array<float, kCortexEchoes> n_im{};
   const double step = static_cast<double>(cortex_step_);
   // across itself the line is as thick at a slope as where it is flat; the beam's width adds to it
-  const double length = cortex_ / std::pow(std::max(kSteepestCortex, echo.cosine), kCortexSlope);
+  const double cosine = std::max(kSteepestCortex, echo.cosine);
+  const double width = shape_->profile().lateral_width(echo.sample * shape_->sample_depth());
+  const double length = std::max(
+      step, cortex_ / std::pow(cosine, kCortexSlope) -
+                kCortexBeam * std::sqrt(1 - cosine * cosine) * width / shape_->sample_depth());
   const auto n = std::min(kCortexEchoes, static_cast<std::size_t>(length / step) + 1);
   ScatterField::add(view, echo.rest_J, step * echo.step_J, std::span(one).first(n),
                     std::span(n_re).first(n), std::span(n_im).first(n));

@@ -16,12 +16,12 @@ namespace {
 // assumed, all of them: set so that lumens and shadows are as grey as in published pictures
 constexpr double kCellAcross = 0.3e-3;  // m
 constexpr double kCellAlong = 0.16e-3;  // m
-constexpr double kLobes = -23;          // dB of all side lobes over the echo
+constexpr double kLobes = -26;          // dB of all side lobes over the echo
 constexpr double kLobeReach = 12;       // widths of the beam over which they fall by a neper
-constexpr double kHaze = -36;           // dB of all reverberation over the echo
+constexpr double kHaze = -39;           // dB of all reverberation over the echo
 constexpr double kHazeReach = 7e-3;     // m along depth over which it falls by a neper
 constexpr double kHazeBlur = 2e-3;      // m across
-constexpr double kHiss = -70;           // dB of the receiver's noise at the face
+constexpr double kHiss = -73;           // dB of the receiver's noise at the face
 constexpr double kHissRise = 250;       // dB per m of depth
 constexpr double kHissMost = -50;       // dB
 constexpr float kMost = 0.06F;          // power of an echo at which the receiver clips

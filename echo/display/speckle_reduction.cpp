@@ -2,6 +2,7 @@
 #include "artus/detail/echo/display/speckle_reduction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -11,14 +12,15 @@ namespace artus {
 namespace {
 
 // assumed, all of them: chosen by eye and by the finest band of published pictures
-constexpr float kUp = 10;             // dB that a brighter neighbour may pull
-constexpr float kDown = 5;            // dB that a darker one may
-constexpr float kAlongNear = 0.07F;   // share of the samples next to it along the line
-constexpr float kAlongFar = 0.09F;    // of those behind them
-constexpr double kAcross = 0.10;      // of the neighbouring lines at the face
-constexpr double kAcrossDeep = 0.26;  // and from kDeep on
-constexpr double kDeep = 40e-3;       // m
-constexpr std::size_t kReach = 2;     // samples
+constexpr float kUp = 14;   // dB that a brighter neighbour may pull
+constexpr float kDown = 9;  // dB that a darker one may
+// shares of the samples beside it along the line, the nearest first, and of the neighbouring lines
+// at the face and from kDeep on: all together, with both neighbours, below one
+constexpr std::array<float, 3> kAlong{0.13F, 0.11F, 0.05F};
+constexpr double kAcross = 0.08;
+constexpr double kAcrossDeep = 0.21;
+constexpr double kDeep = 40e-3;                // m
+constexpr std::size_t kReach = kAlong.size();  // samples
 
 /// A step, kept between -kDown and kUp; in a form that vectorises.
 inline float bounded(float step) noexcept {
@@ -37,9 +39,10 @@ void reduce_middle(const Neighbours& at, const float* across, float* out, std::s
   for (std::size_t i = begin; i < end; ++i) {
     const float c = at.here[i];
     const float beside = bounded(at.left[i] - c) + bounded(at.right[i] - c);
-    const float near = bounded(at.here[i - 1] - c) + bounded(at.here[i + 1] - c);
-    const float far = bounded(at.here[i - 2] - c) + bounded(at.here[i + 2] - c);
-    out[i] = c + across[i] * beside + kAlongNear * near + kAlongFar * far;
+    float along = 0;
+    for (std::size_t k = 0; k < kReach; ++k)
+      along += kAlong[k] * (bounded(at.here[i - 1 - k] - c) + bounded(at.here[i + 1 + k] - c));
+    out[i] = c + across[i] * beside + along;
   }
 }
 

@@ -28,6 +28,7 @@ struct Recipe {
   std::array<std::uint32_t, 3> bits{};  // the tile has 2^bits cells
   Sheets coarse;
   Sheets fine;
+  double bed = 0;  // nepers by which the bed is brighter or darker from place to place, at the most
   /// Cells along z by which the next tile along x and along y lies on: the same sheets do not come
   /// again one tile deeper or beside, but first two deeper and one beside.
   [[nodiscard]] constexpr int shift_x() const { return 3 * coarse.feature[2]; }
@@ -38,8 +39,9 @@ constexpr std::array<Recipe, 4> kRecipes{{
     {TissueKind::muscle,
      {0.1e-3, 0.3e-3, 2e-3},
      {7, 6, 7},
-     {{16, 16, 16}, 0.12e-3, 15, 0.9},
-     {{8, 8, 8}, 0.10e-3, 8, 0.85}},
+     {{16, 16, 2}, 0.20e-3, 8, 0.9},
+     {{8, 8, 2}, 0.14e-3, 6, 0.85},
+     2.6},
     {TissueKind::fat,
      {0.1e-3, 0.5e-3, 0.5e-3},
      {7, 6, 7},
@@ -161,12 +163,32 @@ void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
   }
 }
 
-/// A bed of one with two sets of sheets, scaled to a mean square of one.
+/// A bed around one whose brightness wanders over coarse and fine features.
+std::vector<float> make_bed(const Recipe& recipe, std::uint64_t seed,
+                            const std::array<int, 3>& sides) {
+  std::vector<float> tile;
+  const std::array<int, 3>& feature = recipe.coarse.feature;
+  const ValueNoise slow(seed + 2, recipe, sides, {4 * feature[0], 2 * feature[1], feature[2]});
+  const ValueNoise coarse(seed, recipe, sides, feature);
+  const ValueNoise fine(seed + 1, recipe, sides, recipe.fine.feature);
+  std::vector<float> row;
+  for (int z = 0; z < sides[2]; ++z)
+    for (int y = 0; y < sides[1]; ++y) {
+      row.assign(static_cast<std::size_t>(sides[0]) + 1, 0.0F);
+      const auto bed = static_cast<float>(recipe.bed);
+      if (bed > 0) slow.add_row(y, z, 0.4F * bed, row);
+      if (bed > 0) coarse.add_row(y, z, 0.5F * bed, row);
+      if (bed > 0) fine.add_row(y, z, 0.4F * bed, row);
+      for (int x = 0; x < sides[0]; ++x) tile.push_back(std::exp(row[static_cast<std::size_t>(x)]));
+    }
+  return tile;
+}
+
+/// A bed with two sets of sheets, scaled to a mean square of one.
 std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
   std::array<int, 3> sides{};
   for (std::size_t a = 0; a < 3; ++a) sides[a] = 1 << recipe.bits[a];
-  std::vector<float> tile(
-      static_cast<std::size_t>(sides[0] * sides[1]) * static_cast<std::size_t>(sides[2]), 1.0F);
+  std::vector<float> tile = make_bed(recipe, seed + 6, sides);
   add_sheets(recipe, recipe.coarse, seed, sides, tile);
   add_sheets(recipe, recipe.fine, seed + 3, sides, tile);
   double squares = 0;
