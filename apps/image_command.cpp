@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/rf_options.h"
 #include "artus/detail/apps/options/sight.h"
 #include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/echo/display/rf_lines.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
@@ -25,6 +28,7 @@ struct ImageOptions {
   PressOptions press;
   std::filesystem::path out;
   std::filesystem::path envelope;
+  std::filesystem::path rf;
   bool plain = false;
   std::optional<double> doppler_mm_s;
   bool json = false;
@@ -37,6 +41,18 @@ cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& opt
           ? doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings)
           : grey_image(frame);
   return options.plain ? picture : annotated_image(picture, frame, view.transducer);
+}
+
+/// Writes the lines before the envelope, when they are asked for.
+Result<void> write_lines(const Frame& frame, const View& view, const ImageOptions& options) {
+  if (options.rf.empty()) return {};
+  const auto file = line_file_of(options.rf, "--rf");
+  ARTUS_TRY(file);
+  const auto lines = make_rf_lines(frame, view.transducer, view.settings);
+  ARTUS_TRY(lines);
+  const auto bytes = file->encode(*lines);
+  ARTUS_TRY(bytes);
+  return write_text(options.rf, *bytes);
 }
 
 ExitCode run_image(const ImageOptions& options) {
@@ -62,6 +78,8 @@ ExitCode run_image(const ImageOptions& options) {
   if (!options.envelope.empty())
     if (const auto written = write_envelope(frame, options.envelope); !written)
       return report_error(written.error(), options.json);
+  if (const auto written = write_lines(frame, view, options); !written)
+    return report_error(written.error(), options.json);
 
   const std::vector<std::string> notes = notes_of_stand(*loaded);
   if (options.json) {
@@ -81,6 +99,7 @@ ExitCode run_image(const ImageOptions& options) {
                   frame.tip_shown);
     if (!pressed->is_null()) report["press"] = *pressed;
     if (!options.envelope.empty()) report["envelope"] = options.envelope.string();
+    if (!options.rf.empty()) report["rf"] = options.rf.string();
     std::cout << report.dump(2) << '\n';
   } else {
     std::printf("%s: %d x %d pixels of %.3f mm\n", options.out.c_str(), image.cols, image.rows,
@@ -114,6 +133,9 @@ void add_image_command(Command& app, ExitCode& code) {
   command->add_option("-o,--out", options->out, "image file (.png, .jpg, .tiff)")->required();
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
+  command->add_option(
+      "--rf", options->rf,
+      "also write the beamformed lines before the envelope (.npz, .uff; docs/rf.md)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");
   command->add_option("--doppler", options->doppler_mm_s,
                       "colour what moves, with the needle at this speed toward its tip, mm/s");
