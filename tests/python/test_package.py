@@ -2,10 +2,12 @@
 """The module as a package: import, stub, program, document, installation."""
 
 import ast
+import importlib.util
 import inspect
 import re
 import subprocess
 import sys
+import types
 
 import pytest
 
@@ -88,13 +90,47 @@ def test_the_stub_names_every_setting_of_a_renderer(source, joint):
     assert [name for name, alone, _ in rows if alone] == offered
 
 
-def test_the_documents_example_runs(source, simple, tmp_path, monkeypatch):
-    blocks = re.findall(r"```python\n(.*?)```", (source / "docs/python.md").read_text(), re.S)
-    assert blocks
+def document_parts(source, simple):
+    """The three programs of docs/python.md: the first one, PyTorch's, the classifier."""
+    parts = re.findall(r"```python\n(.*?)```", (source / "docs/python.md").read_text(), re.S)
+    assert len(parts) == 3
+    return [part.replace("meshes/simple-shoulder", str(simple)) for part in parts]
+
+
+def torch_stand_in():
+    """As much of PyTorch as the document uses, where it is not there: it cannot batch or start workers."""
+    data = types.SimpleNamespace(IterableDataset=object, get_worker_info=lambda: None,
+                                 DataLoader=lambda items, **how: items)
+    return types.SimpleNamespace(utils=types.SimpleNamespace(data=data))
+
+
+def test_the_documents_example_runs(source, simple, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    code = blocks[0].replace("meshes/simple-shoulder", str(simple))
-    exec(compile(code, "docs/python.md", "exec"), {"__name__": "example"})
+    first, torch, _ = document_parts(source, simple)
+    names = {"__name__": "example"}
+    exec(compile(first, "docs/python.md", "exec"), names)
     assert (tmp_path / "view.pgm").stat().st_size > 1000
+    said = capsys.readouterr().out
+    assert "mm from the target" in said and "None" not in said
+    if importlib.util.find_spec("torch") is None:
+        monkeypatch.setitem(sys.modules, "torch", torch_stand_in())
+    exec(compile(torch, "docs/python.md", "exec"), names)
+    assert [item["index"] for item in names["Views"]()] == list(range(len(names["poses"])))
+
+
+def test_the_documents_classifier_learns_where_needles_are(source, simple, tmp_path):
+    pytest.importorskip("sklearn", reason="python3-sklearn is not there")
+    (tmp_path / "learn.py").write_text(document_parts(source, simple)[2])
+    # one thread: on a machine with other work the learner's threads wait for each other
+    out = run("env", "OMP_NUM_THREADS=1", sys.executable, tmp_path / "learn.py")
+    assert float(re.search(r"balanced accuracy ([0-9.]+)", out).group(1)) > 0.85
+
+
+def test_import_is_quick():
+    # by the processor's time, which others on the machine do not lengthen
+    code = ("import numpy, time; t = time.process_time(); import artus; "
+            "print(time.process_time() - t)")
+    assert min(float(run(sys.executable, "-c", code)) for _ in range(3)) < 0.3
 
 
 def test_pip_installs_without_network(source, tmp_path):
