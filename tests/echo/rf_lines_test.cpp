@@ -51,7 +51,8 @@ class RfLinesTest : public testing::Test {
 };
 
 TEST_F(RfLinesTest, APulseOfClosedFormRidesOnTheCarrier) {
-  const auto lines = make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
+  const auto lines =
+      make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
   ASSERT_TRUE(lines) << lines.error().message;
   EXPECT_NEAR(lines->sampling_frequency, 1540 / (2 * 10e-3 / 256), 1e-3);
   EXPECT_GE(lines->rf_sampling_frequency, 4 * transducer_.frequency);
@@ -69,7 +70,8 @@ TEST_F(RfLinesTest, APulseOfClosedFormRidesOnTheCarrier) {
 }
 
 TEST_F(RfLinesTest, TheEnvelopeIsTheTimeGainTimesTheLinesThatAreGiven) {
-  const auto lines = make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
+  const auto lines =
+      make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
   ASSERT_TRUE(lines);
   EXPECT_EQ(lines->time_gain.front(), 1);
   // both ways, dB: 2 * 0.7 dB/cm/MHz * 12 MHz * the last sample's depth
@@ -80,7 +82,8 @@ TEST_F(RfLinesTest, TheEnvelopeIsTheTimeGainTimesTheLinesThatAreGiven) {
 
 TEST_F(RfLinesTest, EachArrayHasTheShapeOfItsValues) {
   transducer_.radius = 60e-3;
-  const auto lines = make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
+  const auto lines =
+      make_rf_lines(frame_of(pulse_, transducer_, settings_), transducer_, settings_);
   ASSERT_TRUE(lines);
   EXPECT_LT(lines->origins[2], 0);  // the curved face falls away from its middle
   for (const NamedArray& array : arrays_of(*lines)) {

@@ -16,8 +16,7 @@ RfLines two_lines() {
   lines.n_lines = 2;
   lines.n_samples = 3;
   lines.n_rf_samples = 9;
-  for (int i = 0; i < 6; ++i)
-    lines.iq.emplace_back(static_cast<float>(i), static_cast<float>(-i));
+  for (int i = 0; i < 6; ++i) lines.iq.emplace_back(static_cast<float>(i), static_cast<float>(-i));
   lines.rf.assign(18, 0.5F);
   lines.time_gain.assign(3, 1.0F);
   lines.origins = {-1e-3, 0, 0, 1e-3, 0, 0};

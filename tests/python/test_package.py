@@ -5,9 +5,12 @@ import ast
 import importlib.util
 import inspect
 import re
+import shutil
 import subprocess
 import sys
 import types
+import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -135,8 +138,6 @@ def test_import_is_quick():
 
 def test_pip_installs_without_network(source, tmp_path):
     """A wheel of the tree that is built, into a folder of its own."""
-    from pathlib import Path
-
     build = Path(artus.__file__).resolve().parents[2]
     done = subprocess.run(
         [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--no-build-isolation",
@@ -149,3 +150,25 @@ def test_pip_installs_without_network(source, tmp_path):
               f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); import artus; "
               "print(artus.__file__)")
     assert str(tmp_path) in out
+
+
+def test_a_wheel_carries_what_it_needs(source, bundled_cache, tmp_path):
+    """Taken apart, it loads nothing but its own libraries and those that every system has, and finds its joints."""
+    if shutil.which("patchelf") is None:
+        pytest.skip("patchelf is not there")
+    build = Path(artus.__file__).resolve().parents[2]
+    code = ("import sys; sys.path.insert(0, 'python'); import build_backend; print(build_backend.build_wheel("
+            f"{str(tmp_path)!r}, {{'build-dir': {str(build)!r}, 'carry': 'yes'}}))")
+    done = subprocess.run([sys.executable, "-c", code], cwd=source, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    name = done.stdout.split()[-1]
+    assert re.fullmatch(r"artus-[0-9.]+-(cp3[0-9]+)-\1-manylinux_2_[0-9]+_[a-z0-9_]+\.whl", name)
+    with zipfile.ZipFile(tmp_path / name) as wheel:
+        wheel.extractall(tmp_path / "site")
+        assert any("licenses/libembree" in member for member in wheel.namelist())
+    out = run("env", f"PYTHONPATH={tmp_path / 'site'}", sys.executable, "-c",
+              f"import artus; print(artus.__file__); artus.load('simple-shoulder', cache={str(bundled_cache)!r}); "
+              "print(open('/proc/self/maps').read())")
+    assert out.startswith(str(tmp_path))
+    loaded = set(re.findall(r"/\S+/(lib(?:embree|tbb|gmp|mpfr|tet|toml)\S*)", out))
+    assert loaded and all(re.search(r"-[0-9a-f]{8}\.so", library) for library in loaded), loaded
