@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "artus/detail/apps/options/press_options.h"
-#include "artus/detail/apps/options/rf_options.h"
 #include "artus/detail/apps/options/sight.h"
 #include "artus/detail/apps/options/view_options.h"
 #include "artus/detail/core/text_file.h"
@@ -15,6 +14,7 @@
 #include "artus/detail/dataset/echo_truth.h"
 #include "artus/detail/echo/display/rf_lines.h"
 #include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/exchange/line_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"

@@ -10,10 +10,10 @@
 #include "artus/dataset/sweep.h"
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/apps/options/press_options.h"
-#include "artus/detail/apps/options/rf_options.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/dataset/pose_draw.h"
 #include "artus/detail/dataset/shards.h"
+#include "artus/detail/exchange/line_file.h"
 #include "artus/echo/transducer_file.h"
 
 namespace artus {

@@ -96,13 +96,16 @@ TEST(UffFile, SaysThatThereIsNoChannelData) {
   EXPECT_NE(info.find("there is no channel data"), std::string::npos);
 }
 
-TEST(UffFile, ACurvedFaceIsAFanAndASteeredOneIsPixels) {
+TEST(UffFile, ACurvedFaceIsAFan) {
   RfLines curved = two_lines();
   curved.face_radius = 0.06;
   const Opened fan(uff_bytes(curved).value());
   EXPECT_EQ(fan.text("/iq/scan", "class"), "uff.sector_scan");
   EXPECT_EQ(fan.values("/iq/scan/depth_axis")[0], 0.06);  // from the fan's centre
   EXPECT_EQ(fan.values("/iq/scan/apex/distance"), std::vector<double>{0.06});
+}
+
+TEST(UffFile, ASteeredFaceIsPixels) {
   RfLines steered = two_lines();
   steered.steering = 0.1;
   steered.directions = {0.6, 0, 0.8, 0.6, 0, 0.8};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/apps/options/rf_options.h"
+#include "artus/detail/exchange/line_file.h"
 
 #include "artus/detail/dataset/npz_file.h"
 #include "artus/detail/echo/display/rf_lines.h"
