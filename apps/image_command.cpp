@@ -43,7 +43,14 @@ cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& opt
   return options.plain ? picture : annotated_image(picture, frame, view.transducer);
 }
 
-/// Writes the lines before the envelope, when they are asked for.
+/// Whether the lines before the envelope can be had, when they are asked for.
+Result<void> check_lines(const View& view, const ImageOptions& options) {
+  if (options.rf.empty()) return {};
+  ARTUS_TRY(line_file_of(options.rf, "--rf"));
+  return check_single_lines(view.settings);
+}
+
+/// Writes them.
 Result<void> write_lines(const Frame& frame, const View& view, const ImageOptions& options) {
   if (options.rf.empty()) return {};
   const auto file = line_file_of(options.rf, "--rf");
@@ -58,6 +65,8 @@ Result<void> write_lines(const Frame& frame, const View& view, const ImageOption
 ExitCode run_image(const ImageOptions& options) {
   auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
+  if (const auto possible = check_lines(loaded->view, options); !possible)
+    return report_error(possible.error(), options.json);
   const auto pressed = press(*loaded, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
   View& view = loaded->view;

@@ -2,6 +2,7 @@
 """Lines before the envelope, read back from files as others read them: to the same picture."""
 
 import json
+import subprocess
 import tarfile
 
 import numpy as np
@@ -110,3 +111,15 @@ def test_a_sweep_has_the_lines_of_each_frame(tool, simple, tmp_path):
     run(tool, "sweep", "-j", simple, "--poses", tmp_path / "p.jsonl", *small, "-o", tmp_path / "list")
     truth = json.loads((tmp_path / "list/truth.jsonl").read_text())
     assert np.load(tmp_path / "list" / truth["rf"])["iq"].shape == (32, 1024)
+
+
+@pytest.mark.parametrize("flags, says", [
+    (("--rf", "lines.mat"), ".npz, .uff, .h5 or .hdf5"),
+    (("--rf", "lines.npz", "--compound", 3), "compound picture"),
+    (("--rf", "lines.npz", "--look", "compound"), "compound picture"),
+])
+def test_what_has_no_lines_is_refused_before_it_is_drawn(tool, simple, tmp_path, flags, says):
+    done = subprocess.run([tool, "image", "-j", simple, "-o", "i.png", *map(str, flags)], cwd=tmp_path,
+                          capture_output=True, text=True)
+    assert done.returncode != 0 and says in done.stderr
+    assert not list(tmp_path.iterdir())
