@@ -49,7 +49,7 @@ struct RfLines {
 
 /// The lines of a frame that was drawn with these settings. rf is sampled at the smallest multiple
 /// of iq's rate that is four times the centre frequency or more; between samples iq is interpolated
-/// by a windowed sinc. Errors: as check_single_lines. Cost: some 10 ms.
+/// by a windowed sinc. Errors: as check_single_lines. Cost: some 20 ms.
 [[nodiscard]] Result<RfLines> make_rf_lines(const Frame& frame, const Transducer& transducer,
                                             const ImageSettings& settings);
 
