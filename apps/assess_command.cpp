@@ -101,8 +101,9 @@ Result<TrackedList> read_list(const AssessOptions& options) {
   for (const ListedPose& pose : file->poses) {
     if (!pose.time)
       return fail(ErrorCode::invalid, "every pose needs its time_s", options.poses.string());
-    list.poses.push_back(
-        {*pose.time, pose.X_JN, pose.has_probe ? std::optional(pose.X_JP) : std::nullopt});
+    list.poses.push_back({*pose.time, pose.X_JN,
+                          pose.has_probe ? std::optional(pose.X_JP) : std::nullopt,
+                          pose.needle_given, pose.probe_given});
   }
   return list;
 }

@@ -9,9 +9,12 @@
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
 #include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/echo/display/rf_lines.h"
 #include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/exchange/line_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -25,6 +28,7 @@ struct ImageOptions {
   PressOptions press;
   std::filesystem::path out;
   std::filesystem::path envelope;
+  std::filesystem::path rf;
   bool plain = false;
   std::optional<double> doppler_mm_s;
   bool doppler_power = false;
@@ -43,9 +47,30 @@ cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& opt
   return options.plain ? picture : annotated_image(picture, frame, view.transducer);
 }
 
+/// Whether the lines before the envelope can be had, when they are asked for.
+Result<void> check_lines(const View& view, const ImageOptions& options) {
+  if (options.rf.empty()) return {};
+  ARTUS_TRY(line_file_of(options.rf, "--rf"));
+  return check_single_lines(view.settings);
+}
+
+/// Writes them.
+Result<void> write_lines(const Frame& frame, const View& view, const ImageOptions& options) {
+  if (options.rf.empty()) return {};
+  const auto file = line_file_of(options.rf, "--rf");
+  ARTUS_TRY(file);
+  const auto lines = make_rf_lines(frame, view.transducer, view.settings);
+  ARTUS_TRY(lines);
+  const auto bytes = file->encode(*lines);
+  ARTUS_TRY(bytes);
+  return write_text(options.rf, *bytes);
+}
+
 ExitCode run_image(const ImageOptions& options) {
   auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
+  if (const auto possible = check_lines(loaded->view, options); !possible)
+    return report_error(possible.error(), options.json);
   const auto pressed = press(*loaded, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
   View& view = loaded->view;
@@ -68,6 +93,8 @@ ExitCode run_image(const ImageOptions& options) {
   if (!options.envelope.empty())
     if (const auto written = write_envelope(frame, options.envelope); !written)
       return report_error(written.error(), options.json);
+  if (const auto written = write_lines(frame, view, options); !written)
+    return report_error(written.error(), options.json);
 
   const std::vector<std::string> notes = notes_of_stand(*loaded);
   if (options.json) {
@@ -87,6 +114,7 @@ ExitCode run_image(const ImageOptions& options) {
                   frame.tip_shown);
     if (!pressed->is_null()) report["press"] = *pressed;
     if (!options.envelope.empty()) report["envelope"] = options.envelope.string();
+    if (!options.rf.empty()) report["rf"] = options.rf.string();
     std::cout << report.dump(2) << '\n';
   } else {
     std::printf("%s: %d x %d pixels of %.3f mm\n", options.out.c_str(), image.cols, image.rows,
@@ -121,6 +149,9 @@ void add_image_command(Command& app, ExitCode& code) {
   command->add_option("-o,--out", options->out, "image file (.png, .jpg, .tiff)")->required();
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
+  command->add_option(
+      "--rf", options->rf,
+      "also write the beamformed lines before the envelope (.npz, .uff; docs/rf.md)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");
   command->add_option(
       "--doppler", options->doppler_mm_s,

@@ -19,6 +19,9 @@ struct ListedPose {
   Pose X_JP = Pose::Identity();
   std::optional<Pose> X_JN;  ///< origin at the tip, z from hub to tip
   bool has_probe = true;     ///< false: X_JP is nowhere, in a list that is read for its needle
+  /// Orientations as a tracker's matrices have them, a little off a rotation; empty: those above.
+  std::optional<Eigen::Matrix3d> probe_given{};
+  std::optional<Eigen::Matrix3d> needle_given{};
 };
 
 /// Which hand every pose of a list must have.

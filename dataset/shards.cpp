@@ -39,7 +39,8 @@ std::string png_of(const cv::Mat& picture) {
 }
 
 /// The members of one frame, the first of each key being what WebDataset calls a sample.
-void append_frame(std::string& archive, std::size_t index, const SweepFrame& frame) {
+Result<void> append_frame(std::string& archive, std::size_t index, const SweepFrame& frame,
+                          const std::optional<LineFile>& rf) {
   const std::string key = printed("%09zu", index);
   append_member(archive, key + ".json",
                 frame.truth.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -48,6 +49,12 @@ void append_frame(std::string& archive, std::size_t index, const SweepFrame& fra
     if (picture.depth() != CV_8U) picture.convertTo(picture, CV_8U);
     append_member(archive, key + ending_of(frame.pictures[i].first, '.'), png_of(picture));
   }
+  if (frame.rf) {
+    const auto bytes = rf->encode(*frame.rf);
+    ARTUS_TRY(bytes);
+    append_member(archive, key + "." + std::string(kRfKey) + "." + rf->ending, *bytes);
+  }
+  return {};
 }
 
 json describe(const std::shared_ptr<const Scene>& scene, const FrameSource& frames,
@@ -78,11 +85,11 @@ Result<bool> is_there(const fs::path& folder, std::size_t shard, const json& ask
 }
 
 Result<std::string> draw_shard(SweepDrawer& drawer, const FrameSource& frames, const Range& range,
-                               const std::function<bool()>& stop) {
+                               const SweepOptions& options) {
   std::string archive;
   for (std::size_t i = range.first; i < range.last; ++i) {
-    if (stop && stop()) return std::string();
-    append_frame(archive, i, drawer.draw(i, frames.frame(i)));
+    if (options.stop && options.stop()) return std::string();
+    ARTUS_TRY(append_frame(archive, i, drawer.draw(i, frames.frame(i)), options.rf));
   }
   finish_archive(archive);
   return archive;
@@ -156,8 +163,7 @@ Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
                                  const fs::path& folder, const ShardOptions& options,
                                  const Progress& progress) {
   constexpr std::size_t kMaxRegions = 256;  // of an 8-bit picture
-  if (options.sweep.settings.persistence != 0)
-    return fail(ErrorCode::invalid, "a sweep needs persistence = 0", folder.string());
+  ARTUS_TRY(check_sweep(options.sweep, folder.string()));
   const auto many = [](const auto& body) {
     return body->joint().regions.size() > kMaxRegions;
   };
@@ -182,7 +188,7 @@ Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
     if (*there) continue;
     if (!drawer) drawer = std::make_unique<SweepDrawer>(scene, options.sweep);
     const Range range{shard * options.frames, std::min(frames.count, (shard + 1) * options.frames)};
-    const auto archive = draw_shard(*drawer, frames, range, options.sweep.stop);
+    const auto archive = draw_shard(*drawer, frames, range, options.sweep);
     ARTUS_TRY(archive);
     if (archive->empty()) break;
     ARTUS_TRY(write_shard(folder, shard, range, *archive, asked));

@@ -72,7 +72,9 @@ Result<void> write_whole(const fs::path& file, const Write& write) {
 bool is_finished(std::string_view line, std::size_t index, const fs::path& folder) {
   const json truth = json::parse(line, nullptr, false);
   if (!truth.is_object() || truth.value("index", json()) != json(index)) return false;
-  for (const std::string_view key : kPictureKeys) {
+  std::vector<std::string_view> keys(kPictureKeys.begin(), kPictureKeys.end());
+  keys.push_back(kRfKey);
+  for (const std::string_view key : keys) {
     const auto place = truth.find(key);
     if (place == truth.end()) continue;
     std::error_code error;
@@ -136,7 +138,8 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
 }
 
 /// Writes a frame's pictures and returns its line.
-Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& folder) {
+Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& folder,
+                         const std::optional<LineFile>& rf) {
   const std::string stem = printed("frames/%06zu", index);
   for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
     const std::string name = stem + ending_of(frame.pictures[i].first, '-');
@@ -145,6 +148,16 @@ Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& fo
     };
     ARTUS_TRY(write_whole(folder / name, picture));
     frame.truth[frame.pictures[i].first] = name;
+  }
+  if (frame.rf) {
+    const auto bytes = rf->encode(*frame.rf);
+    ARTUS_TRY(bytes);
+    const std::string name = stem + "-" + std::string(kRfKey) + "." + rf->ending;
+    const auto whole = [&](const fs::path& part) {
+      return write_text(part, *bytes);
+    };
+    ARTUS_TRY(write_whole(folder / name, whole));
+    frame.truth[kRfKey] = name;
   }
   return std::move(frame.truth);
 }
@@ -162,8 +175,7 @@ void count_contact(const json& truth, SweepResult& result) {
 Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
                               const std::vector<ListedPose>& poses, const fs::path& folder,
                               const SweepOptions& options, const Progress& progress) {
-  if (options.settings.persistence != 0)
-    return fail(ErrorCode::invalid, "a sweep needs persistence = 0", folder.string());
+  ARTUS_TRY(check_sweep(options, folder.string()));
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
@@ -182,7 +194,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   std::ofstream lines(file, std::ios::binary | std::ios::app);
   for (std::size_t i = *found; i < poses.size(); ++i) {
     if (options.stop && options.stop()) break;
-    const auto truth = write_frame(drawer.draw(i, FrameOrder(poses[i])), i, folder);
+    const auto truth = write_frame(drawer.draw(i, FrameOrder(poses[i])), i, folder, options.rf);
     ARTUS_TRY(truth);
     count_contact(*truth, result);
     // A name may hold bytes that are no text.

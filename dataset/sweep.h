@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +26,14 @@ namespace artus {
 enum class SweepTruth : std::uint8_t { shown, real, both };
 inline constexpr std::array<std::string_view, 3> kSweepTruthNames{"shown", "true", "both"};
 
+struct RfLines;
+
+/// Files of lines before the envelope.
+struct LineFile {
+  std::string ending;                                         ///< without the dot
+  std::function<Result<std::string>(const RfLines&)> encode;  ///< their bytes
+};
+
 struct SweepOptions {
   Transducer transducer;
   ImageSettings settings;  ///< without persistence: a frame must not depend on the one before
@@ -31,6 +41,7 @@ struct SweepOptions {
   std::vector<std::shared_ptr<const Scene>> patients{};  ///< further joints that frames may name
   std::vector<TransducerPreset> transducers{};           ///< further probes that frames may name
   SweepTruth truth = SweepTruth::shown;
+  std::optional<LineFile> rf{};  ///< also write each frame's lines; not of compound pictures
   bool restart = false;          ///< throw away what an earlier sweep left in the folder
   std::function<bool()> stop{};  ///< asked before each frame; true ends the sweep, to be continued
 };
@@ -51,10 +62,11 @@ struct SweepResult {
 ///   frames/NNNNNN-labels_shown.png, -shadow_shown.png, -needle_shown.png   region ids (16 bit) and
 ///                         masks where the picture shows things; -labels_true.png ... where they
 ///                         are
+///   frames/NNNNNN-rf.npz  lines before the envelope, where they are asked for
 /// A sweep that was stopped, killed even, continues where it was: a frame counts when its line and
 /// all its pictures are there. The files are the same bytes at any number of threads and stops.
-/// Errors: invalid (persistence; the folder holds another sweep; another process draws there),
-/// unreadable.
+/// Errors: invalid (persistence; lines of compound pictures; the folder holds another sweep;
+/// another process draws there), unreadable.
 [[nodiscard]] Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
                                             const std::vector<ListedPose>& poses,
                                             const std::filesystem::path& folder,

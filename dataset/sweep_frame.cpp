@@ -50,12 +50,20 @@ std::string ending_of(std::string_view key, char separator) {
   return separator + std::string(key) + ".png";
 }
 
+Result<void> check_sweep(const SweepOptions& options, const std::string& where) {
+  if (options.settings.persistence != 0)
+    return fail(ErrorCode::invalid, "a sweep needs persistence = 0", where);
+  if (options.rf) ARTUS_TRY(check_single_lines(options.settings));
+  return {};
+}
+
 nlohmann::json describe_sweep(const CompiledJoint& joint, const SweepOptions& options) {
   nlohmann::json out{{"joint", identity_of(joint)},
                      {"transducer", to_json(options.transducer)},
                      {"settings", to_json(options.settings)},
                      {"needle", to_json(options.needle)},
                      {"truth", kSweepTruthNames[static_cast<std::size_t>(options.truth)]}};
+  if (options.rf) out["rf"] = options.rf->ending;
   for (const auto& patient : options.patients)
     out["patients"].push_back(identity_of(patient->joint()));
   for (const TransducerPreset& preset : options.transducers)
@@ -119,6 +127,10 @@ SweepFrame SweepDrawer::draw(std::size_t index, const FrameOrder& order) {
   const Frame& frame = scanner.renderer.render(X_JP, needle);
   const CompiledJoint& joint = scanner.scene->joint();
   out.pictures = {{"image", grey_image(frame)}};
+  if (options_.rf)
+    if (auto lines =
+            make_rf_lines(frame, scanner.renderer.transducer(), scanner.renderer.settings()))
+      out.rf = std::move(*lines);
   const ShownPlaces places = scanner.renderer.shown_places(X_JP);
   const auto add = [&](const std::string& kind, const LabelImage& labels,
                        const ShownPlaces* shown_at) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 
 #include "artus/dataset/sweep.h"
 #include "artus/detail/dataset/frame_order.h"
+#include "artus/detail/echo/display/rf_lines.h"
 
 namespace artus {
 
@@ -26,12 +28,15 @@ inline constexpr std::array<std::string_view, 7> kPictureKeys{
 
 /// How a picture's file ends: ".png" of the image, "-labels_shown.png" and so on of the others.
 [[nodiscard]] std::string ending_of(std::string_view key, char separator);
+/// The key of a frame's lines before the envelope, which are no picture.
+inline constexpr std::string_view kRfKey = "rf";
 
 /// A frame of a sweep before it is a file: its line of truth and its pictures by kPictureKeys, the
 /// image first.
 struct SweepFrame {
   nlohmann::json truth;
   std::vector<std::pair<std::string, cv::Mat>> pictures;
+  std::optional<RfLines> rf;  ///< where they are asked for
 };
 
 /// Draws frames one by one; a frame depends on its order alone. A pressed one is drawn from the
@@ -54,6 +59,9 @@ class SweepDrawer {
   std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<Scanner>> scanners_;
   std::unique_ptr<Scanner> pressed_;  // of the last frame, when it was pressed
 };
+
+/// Errors: invalid, what no sweep can have: persistence, and lines of compound pictures.
+[[nodiscard]] Result<void> check_sweep(const SweepOptions& options, const std::string& where);
 
 /// What was asked for, apart from the poses: joints, transducers, settings, needle.
 [[nodiscard]] nlohmann::json describe_sweep(const CompiledJoint& joint,

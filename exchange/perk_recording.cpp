@@ -149,7 +149,8 @@ class PerkTrack {
     if (!hands->probe && !hands->needle) return;
     if (!hands->probe_name.empty()) taken_.insert(hands->probe_name + " is taken for the probe");
     if (!hands->needle_name.empty()) taken_.insert(hands->needle_name + " is taken for the needle");
-    track_.frames.push_back({time - start_, hands->probe, hands->needle});
+    track_.frames.push_back(
+        {time - start_, hands->probe, hands->needle, hands->probe_given, hands->needle_given});
   }
   [[nodiscard]] bool empty() const noexcept { return track_.frames.empty(); }
   TrackerTrack finish(const std::vector<Message>& messages) {

@@ -95,7 +95,8 @@ class TrackMaker {
     if (!time) return;
     if (!hands->probe_name.empty()) taken_.insert(hands->probe_name + " is taken for the probe");
     if (!hands->needle_name.empty()) taken_.insert(hands->needle_name + " is taken for the needle");
-    track_.frames.push_back({*time, hands->probe, hands->needle});
+    track_.frames.push_back(
+        {*time, hands->probe, hands->needle, hands->probe_given, hands->needle_given});
   }
 
   Result<TrackerTrack> finish() {

@@ -71,6 +71,13 @@ class Registered {
   [[nodiscard]] Pose needle(const Pose& X_RS) const {
     return calibration_.X_JR * X_RS * calibration_.X_NeedleN;
   }
+  /// The same of orientations.
+  [[nodiscard]] Eigen::Matrix3d probe_turn(const Eigen::Matrix3d& given) const {
+    return calibration_.X_JR.linear() * given * calibration_.X_ProbeP.linear();
+  }
+  [[nodiscard]] Eigen::Matrix3d needle_turn(const Eigen::Matrix3d& given) const {
+    return calibration_.X_JR.linear() * given * calibration_.X_NeedleN.linear();
+  }
 
  private:
   TrackerCalibration calibration_;
@@ -94,6 +101,8 @@ Result<PoseFile> poses_of_track(TrackerTrack track, const PoseFileOptions& optio
     pose.has_probe = frame.probe.has_value();
     if (frame.probe) pose.X_JP = registered.probe(*frame.probe);
     if (frame.needle) pose.X_JN = registered.needle(*frame.needle);
+    if (frame.probe_given) pose.probe_given = registered.probe_turn(*frame.probe_given);
+    if (frame.needle_given) pose.needle_given = registered.needle_turn(*frame.needle_given);
     out.poses.push_back(std::move(pose));
   }
   const char* hand = options.needed == PoseHand::probe ? "probe" : "needle";

@@ -13,6 +13,9 @@ struct TrackFrame {
   double time = 0;             ///< s
   std::optional<Pose> probe;   ///< m, in the file's reference; empty: not seen
   std::optional<Pose> needle;  ///< the same
+  /// Their orientations as matrices of the file have them, a little off a rotation.
+  std::optional<Eigen::Matrix3d> probe_given{};
+  std::optional<Eigen::Matrix3d> needle_given{};
 };
 
 /// The motion of probe and needle as a file of a tracker has it.

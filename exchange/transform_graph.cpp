@@ -12,6 +12,7 @@ namespace {
 struct FoundHand {
   std::optional<Pose> pose;
   std::string taken;
+  Eigen::Matrix3d given = Eigen::Matrix3d::Identity();
 };
 
 Result<FoundHand> find_hand(const TransformGraph& graph, const std::string& name,
@@ -23,11 +24,14 @@ Result<FoundHand> find_hand(const TransformGraph& graph, const std::string& name
   const std::string to =
       !graph.knows(asked->second) && asked->second == "Reference" ? "Tracker" : asked->second;
   for (const std::string& tool : tools) {
-    auto pose = graph.find(tool, to);
+    FoundHand found;
+    auto pose = graph.find(tool, to, &found.given);
     ARTUS_TRY(pose);
     if (!*pose) continue;
     const bool other = tool != asked->first || to != asked->second;
-    return FoundHand{*pose, other ? tool + " in " + to : std::string()};
+    found.pose = *pose;
+    if (other) found.taken = tool + " in " + to;
+    return found;
   }
   return FoundHand{};
 }
@@ -61,7 +65,8 @@ bool TransformGraph::knows(std::string_view frame) const {
   return edges_.find(frame) != edges_.end();
 }
 
-Result<std::optional<Pose>> TransformGraph::find(std::string_view from, std::string_view to) const {
+Result<std::optional<Pose>> TransformGraph::find(std::string_view from, std::string_view to,
+                                                 Eigen::Matrix3d* given) const {
   std::map<std::string, const Edge*, std::less<>> came{{std::string(from), nullptr}};
   std::map<std::string, std::string, std::less<>> before;
   std::deque<std::string> next{std::string(from)};
@@ -79,12 +84,16 @@ Result<std::optional<Pose>> TransformGraph::find(std::string_view from, std::str
   if (came.find(to) == came.end() || edges_.find(from) == edges_.end())
     return std::optional<Pose>();
   Pose pose = Pose::Identity();  // from the last frame of the way back to the first
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   for (std::string here(to); here != from; here = before[here]) {
     const Edge& edge = *came[here];
     const auto rigid = rigid_from(edge.matrix);
     if (!rigid) return fail(ErrorCode::invalid, rigid.error().message, edge.name);
     pose = pose * (edge.forward ? *rigid : rigid->inverse());
+    const Eigen::Matrix3d own = edge.matrix.leftCols<3>();
+    turn = turn * (edge.forward ? own : Eigen::Matrix3d(own.inverse()));
   }
+  if (given != nullptr) *given = turn;
   return std::optional<Pose>(pose);
 }
 
@@ -98,7 +107,8 @@ Result<FoundHands> find_hands(const TransformGraph& graph, const std::string& pr
                 asked ? std::vector<std::string>()
                       : std::vector<std::string>{"NeedleTip", "StylusTip", "Stylus"});
   ARTUS_TRY(second);
-  return FoundHands{first->pose, second->pose, first->taken, second->taken};
+  return FoundHands{first->pose,   second->pose, first->taken,
+                    second->taken, first->given, second->given};
 }
 
 }  // namespace artus

@@ -28,7 +28,10 @@ class TransformGraph {
   [[nodiscard]] bool knows(std::string_view frame) const;
   /// `from` in `to` by the fewest transforms, against their direction where need be; nullopt when
   /// no way leads there. Errors: invalid, a matrix on the way is not rigid, naming it.
-  [[nodiscard]] Result<std::optional<Pose>> find(std::string_view from, std::string_view to) const;
+  /// `given`: gets the orientation by the matrices as they are, each a little off a rotation as its
+  /// digits leave it.
+  [[nodiscard]] Result<std::optional<Pose>> find(std::string_view from, std::string_view to,
+                                                 Eigen::Matrix3d* given = nullptr) const;
 
  private:
   struct Edge {
@@ -46,6 +49,8 @@ struct FoundHands {
   std::optional<Pose> needle;
   std::string probe_name;   ///< what was taken, "Probe in Tracker"; empty: what was asked for
   std::string needle_name;  ///< the same
+  Eigen::Matrix3d probe_given = Eigen::Matrix3d::Identity();   ///< orientation, as find gives it
+  Eigen::Matrix3d needle_given = Eigen::Matrix3d::Identity();  ///< the same
 };
 
 /// Looks for the two transforms that `probe` and `needle` name; where the file has no such frame,

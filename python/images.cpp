@@ -8,9 +8,11 @@
 #include <type_traits>
 #include <utility>
 
+#include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/display/image_fields.h"
+#include "artus/detail/echo/display/rf_lines.h"
 #include "artus/detail/echo/display/shown_places.h"
 #include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/python/borders.h"
@@ -100,6 +102,18 @@ void take_setting(const std::string& key, const py::handle& value, Transducer& t
   if (!taken) throw py::type_error("unknown setting '" + key + "'; there are " + names);
 }
 
+/// A copy as numpy has it; a number where it has no dimensions.
+py::object copied(const NamedArray& array) {
+  return std::visit(
+      [&](const auto& values) -> py::object {
+        using T = std::remove_const_t<typename std::remove_cvref_t<decltype(values)>::element_type>;
+        if constexpr (std::is_same_v<T, double>)
+          if (array.shape.empty()) return py::float_(values.front());
+        return py::array_t<T>(array.shape, values.data());
+      },
+      array.values);
+}
+
 /// A renderer and the maker of its truth, for one thread at a time.
 class PyRenderer {
  public:
@@ -156,6 +170,21 @@ class PyRenderer {
     out["plane_angle"] = truth.plane_angle;
     out["face_angle"] = truth.face_angle;
     out["in_plane"] = truth.in_plane;
+    return out;
+  }
+
+  py::dict rf(const Numbers& probe, const std::optional<Numbers>& needle) {
+    const Pose X_JP = pose_of(probe, "probe");
+    const std::optional<NeedleView> view = needle_of(needle);
+    const auto lines = [&] {
+      const py::gil_scoped_release others_may_run;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      return make_rf_lines(renderer_->render(X_JP, view), transducer_, settings_);
+    }();
+    if (!lines) raise(lines.error());
+    py::dict out;
+    for (const NamedArray& array : arrays_of(*lines))
+      out[py::str(std::string(array.name))] = copied(array);
     return out;
   }
 
@@ -353,6 +382,11 @@ void add_images(py::module_& module) {
            py::arg("truth") = "shown",
            "The Labels of the same view: where the picture shows things, or with truth=\"true\" "
            "where they are.")
+      .def(
+          "rf", &PyRenderer::rf, py::arg("probe"), py::arg("needle") = py::none(),
+          "The beamformed lines of the same view before the envelope, as `artus image --rf` writes "
+          "them: iq (lines, samples) complex64, rf (lines, rf_samples) float32, time_gain, origins "
+          "and directions (lines, 3) m in P, and numbers in SI. Envelope: time_gain * abs(iq).")
       .def("truth", &PyRenderer::truth, py::arg("probe"), py::arg("needle"),
            "Where the needle truly is: tip_true (x, y) in pixels, tip_offset m from the plane, "
            "plane_angle and face_angle rad, tip_in_picture, tip_in_slice, in_plane.");

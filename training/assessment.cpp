@@ -44,13 +44,13 @@ Assessment assess_list(const TrackedList& list, const std::shared_ptr<const Scen
       const Vec3 p = pose.X_JN->translation();
       const Eigen::Quaterniond q(pose.X_JN->linear());
       meter.add_needle(pose.time, p, q);
-      if (needle_gate.passes(pose.time, p, q)) needle.add(pose.time, *pose.X_JN);
+      if (needle_gate.passes(pose.time, p, q)) needle.add(pose.time, *pose.X_JN, pose.needle_given);
     }
     if (pose.X_JP) {
       const Vec3 p = pose.X_JP->translation();
       const Eigen::Quaterniond q(pose.X_JP->linear());
       meter.add_probe(pose.time, p, q);
-      if (probe_gate.passes(pose.time, p, q)) probe.add(pose.time, *pose.X_JP);
+      if (probe_gate.passes(pose.time, p, q)) probe.add(pose.time, *pose.X_JP, pose.probe_given);
     }
   }
   AttemptMeasures measures = meter.measure();

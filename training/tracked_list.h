@@ -16,6 +16,9 @@ struct TrackedPose {
   double time = 0;  ///< s
   std::optional<Pose> X_JN;
   std::optional<Pose> X_JP;
+  /// Orientations as the tracker's matrices have them, a little off a rotation; empty: those above.
+  std::optional<Eigen::Matrix3d> needle_given{};
+  std::optional<Eigen::Matrix3d> probe_given{};
 };
 
 /// A list of them, and what was peculiar about it.

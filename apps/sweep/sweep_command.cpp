@@ -13,6 +13,7 @@
 #include "artus/detail/core/noise.h"
 #include "artus/detail/dataset/pose_draw.h"
 #include "artus/detail/dataset/shards.h"
+#include "artus/detail/exchange/line_file.h"
 #include "artus/echo/transducer_file.h"
 
 namespace artus {
@@ -26,10 +27,12 @@ struct SweepCommandOptions : PoseListOptions {
   std::int64_t draw = 0;
   std::filesystem::path ranges;
   std::string truth{kSweepTruthNames[0]};
+  std::string rf;
   bool restart = false;
 };
 
-SweepOptions sweep_options_of(const SweepCommandOptions& options, const LoadedView& loaded) {
+Result<SweepOptions> sweep_options_of(const SweepCommandOptions& options,
+                                      const LoadedView& loaded) {
   SweepOptions sweep;
   sweep.transducer = loaded.view.transducer;
   sweep.settings = loaded.view.settings;
@@ -37,6 +40,11 @@ SweepOptions sweep_options_of(const SweepCommandOptions& options, const LoadedVi
   const auto named = std::find(kSweepTruthNames.begin(), kSweepTruthNames.end(), options.truth);
   sweep.truth = static_cast<SweepTruth>(named - kSweepTruthNames.begin());
   sweep.restart = options.restart;
+  if (!options.rf.empty()) {
+    const auto file = line_file_of(options.rf, "--rf");
+    ARTUS_TRY(file);
+    sweep.rf = *file;
+  }
   return sweep;
 }
 
@@ -121,7 +129,9 @@ ExitCode run_shards(const SweepCommandOptions& options) {
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
   ShardOptions shard_options;
-  shard_options.sweep = sweep_options_of(options, *loaded);
+  const auto sweep = sweep_options_of(options, *loaded);
+  if (!sweep) return report_error(sweep.error(), options.json);
+  shard_options.sweep = *sweep;
   const auto source = frames_of(options, *loaded, shard_options.sweep);
   if (!source) return report_error(source.error(), options.json);
   shard_options.frames = static_cast<std::size_t>(options.frames_per_shard);
@@ -156,9 +166,10 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
+  const auto sweep = sweep_options_of(options, *loaded);
+  if (!sweep) return report_error(sweep.error(), options.json);
   const auto result =
-      run_sweep(loaded->scene, *poses, options.out, sweep_options_of(options, *loaded),
-                make_progress_printer(options.json));
+      run_sweep(loaded->scene, *poses, options.out, *sweep, make_progress_printer(options.json));
   if (!result) return report_error(result.error(), options.json);
   if (options.json) {
     std::cout << nlohmann::json{{"joint", loaded->joint().name},
@@ -231,6 +242,10 @@ void add_sweep_command(Command& app, ExitCode& code) {
                    "labels and masks where the picture shows things, where they truly are, or both")
       ->one_of({"shown", "true", "both"})
       ->capture_default_str();
+  command
+      ->add_option("--rf", options->rf,
+                   "also write each frame's beamformed lines before the envelope (docs/rf.md)")
+      ->one_of({"npz", "uff"});
   command->add_flag("--restart", options->restart, "throw away an earlier sweep of the folder");
   on_run(command, code, [options] { return run_sweep_command(*options); });
 }

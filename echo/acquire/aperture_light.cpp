@@ -63,6 +63,7 @@ double ApertureLight::gain(int line, int node) const noexcept {
     sum += weight * static_cast<double>(at(l));
     weights += weight;
   }
+  if (weights <= 0) return 1;  // every line that is asked has ended
   return std::clamp(sum / weights / static_cast<double>(own), 1.0, kMostRaised);
 }
 

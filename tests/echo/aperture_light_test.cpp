@@ -66,6 +66,13 @@ TEST_F(ApertureLightTest, NoRayIsRaisedByMoreThanSixDecibels) {
   EXPECT_FLOAT_EQ(applied(100, 768), 2.0F);
 }
 
+TEST_F(ApertureLightTest, ALineThatGoesOnAloneIsAsItIs) {
+  for (int l = 0; l < 256; ++l)
+    if (l != 100) note(l, 1, 50);
+  for (const std::size_t sample : {100U, 300U, 500U, 768U, 1000U})
+    EXPECT_EQ(applied(100, sample), 1.0F) << sample;
+}
+
 TEST_F(ApertureLightTest, LinesThatEndAtBoneCountNoMore) {
   for (int l = 0; l < 128; ++l) note(l, 1, 500);
   EXPECT_EQ(applied(128, 900), 1.0F);

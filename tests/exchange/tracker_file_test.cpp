@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/printed.h"
+#include "artus/detail/core/rigid.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/exchange/faults.h"
 #include "artus/detail/exchange/perk_recording.h"
@@ -269,6 +270,19 @@ TEST(PerkRecording, TransformsThatComeOneByOneBecomeFrames) {
   EXPECT_TRUE(track->frames[1].probe->isApprox(some_pose(0.1), 1e-6));
   EXPECT_FALSE(track->frames[2].probe);  // seen 1.5 s ago
   EXPECT_THAT(track->notices, testing::Contains("message at 0.00 s: Start"));
+}
+
+TEST(PerkRecording, AMatrixOffARotationIsKeptAsItIsBesideItsPose) {
+  const auto track = parse_perk_recording(
+      "<TransformRecorderLog><log TimeStampSec='1' TimeStampNSec='0' type='transform' "
+      "DeviceName='NeedleToReference' transform='0.9998 0 0 10 0 1 0 0 0 0 1 0 0 0 0 1'/>"
+      "</TransformRecorderLog>",
+      "r.xml");
+  ASSERT_TRUE(track) << track.error().to_string();
+  const TrackFrame& frame = track->frames.at(0);
+  EXPECT_TRUE(is_rigid(*frame.needle));
+  ASSERT_TRUE(frame.needle_given);
+  EXPECT_EQ((*frame.needle_given)(0, 0), 0.9998);
 }
 
 TEST(PerkRecording, SaysWhatIsWrong) {

@@ -2,10 +2,15 @@
 """The module as a package: import, stub, program, document, installation."""
 
 import ast
+import importlib.util
 import inspect
 import re
+import shutil
 import subprocess
 import sys
+import types
+import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -88,19 +93,51 @@ def test_the_stub_names_every_setting_of_a_renderer(source, joint):
     assert [name for name, alone, _ in rows if alone] == offered
 
 
-def test_the_documents_example_runs(source, simple, tmp_path, monkeypatch):
-    blocks = re.findall(r"```python\n(.*?)```", (source / "docs/python.md").read_text(), re.S)
-    assert blocks
+def document_parts(source, simple):
+    """The three programs of docs/python.md: the first one, PyTorch's, the classifier."""
+    parts = re.findall(r"```python\n(.*?)```", (source / "docs/python.md").read_text(), re.S)
+    assert len(parts) == 3
+    return [part.replace("meshes/simple-shoulder", str(simple)) for part in parts]
+
+
+def torch_stand_in():
+    """As much of PyTorch as the document uses, where it is not there: it cannot batch or start workers."""
+    data = types.SimpleNamespace(IterableDataset=object, get_worker_info=lambda: None,
+                                 DataLoader=lambda items, **how: items)
+    return types.SimpleNamespace(utils=types.SimpleNamespace(data=data))
+
+
+def test_the_documents_example_runs(source, simple, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    code = blocks[0].replace("meshes/simple-shoulder", str(simple))
-    exec(compile(code, "docs/python.md", "exec"), {"__name__": "example"})
+    first, torch, _ = document_parts(source, simple)
+    names = {"__name__": "example"}
+    exec(compile(first, "docs/python.md", "exec"), names)
     assert (tmp_path / "view.pgm").stat().st_size > 1000
+    said = capsys.readouterr().out
+    assert "mm from the target" in said and "None" not in said
+    if importlib.util.find_spec("torch") is None:
+        monkeypatch.setitem(sys.modules, "torch", torch_stand_in())
+    exec(compile(torch, "docs/python.md", "exec"), names)
+    assert [item["index"] for item in names["Views"]()] == list(range(len(names["poses"])))
+
+
+def test_the_documents_classifier_learns_where_needles_are(source, simple, tmp_path):
+    pytest.importorskip("sklearn", reason="python3-sklearn is not there")
+    (tmp_path / "learn.py").write_text(document_parts(source, simple)[2])
+    # one thread: on a machine with other work the learner's threads wait for each other
+    out = run("env", "OMP_NUM_THREADS=1", sys.executable, tmp_path / "learn.py")
+    assert float(re.search(r"balanced accuracy ([0-9.]+)", out).group(1)) > 0.85
+
+
+def test_import_is_quick():
+    # by the processor's time, which others on the machine do not lengthen
+    code = ("import numpy, time; t = time.process_time(); import artus; "
+            "print(time.process_time() - t)")
+    assert min(float(run(sys.executable, "-c", code)) for _ in range(3)) < 0.3
 
 
 def test_pip_installs_without_network(source, tmp_path):
     """A wheel of the tree that is built, into a folder of its own."""
-    from pathlib import Path
-
     build = Path(artus.__file__).resolve().parents[2]
     done = subprocess.run(
         [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--no-build-isolation",
@@ -113,3 +150,25 @@ def test_pip_installs_without_network(source, tmp_path):
               f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); import artus; "
               "print(artus.__file__)")
     assert str(tmp_path) in out
+
+
+def test_a_wheel_carries_what_it_needs(source, bundled_cache, tmp_path):
+    """Taken apart, it loads nothing but its own libraries and those that every system has, and finds its joints."""
+    if shutil.which("patchelf") is None:
+        pytest.skip("patchelf is not there")
+    build = Path(artus.__file__).resolve().parents[2]
+    code = ("import sys; sys.path.insert(0, 'python'); import build_backend; print(build_backend.build_wheel("
+            f"{str(tmp_path)!r}, {{'build-dir': {str(build)!r}, 'carry': 'yes'}}))")
+    done = subprocess.run([sys.executable, "-c", code], cwd=source, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    name = done.stdout.split()[-1]
+    assert re.fullmatch(r"artus-[0-9.]+-(cp3[0-9]+)-\1-manylinux_2_[0-9]+_[a-z0-9_]+\.whl", name)
+    with zipfile.ZipFile(tmp_path / name) as wheel:
+        wheel.extractall(tmp_path / "site")
+        assert any("licenses/libembree" in member for member in wheel.namelist())
+    out = run("env", f"PYTHONPATH={tmp_path / 'site'}", sys.executable, "-c",
+              f"import artus; print(artus.__file__); artus.load('simple-shoulder', cache={str(bundled_cache)!r}); "
+              "print(open('/proc/self/maps').read())")
+    assert out.startswith(str(tmp_path))
+    loaded = set(re.findall(r"/\S+/(lib(?:embree|tbb|gmp|mpfr|tet|toml)\S*)", out))
+    assert loaded and all(re.search(r"-[0-9a-f]{8}\.so", library) for library in loaded), loaded

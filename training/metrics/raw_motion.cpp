@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/SVD>
+
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -14,6 +16,12 @@ constexpr double kAround = 1e-3;                      // m before and behind the
 
 bool is_inside(const Scene& body, const Vec3& p) {
   return body.region_at(p) != kOutside;
+}
+
+/// The rotation that is least far from a matrix a little off one: the polar decomposition's.
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 }  // namespace
@@ -64,13 +72,14 @@ void RawMotion::add_tissue(double time, const Pose& X_JB, double step) {
   inside_ = inside;
 }
 
-void RawMotion::add_speeds(double time, const Pose& X_JB) {
-  const Pose moved = X_JB * last_.inverse();
-  const double angle = Eigen::AngleAxisd(moved.linear()).angle();
+void RawMotion::add_speeds(double time, const Pose& X_JB, const Eigen::Matrix3d& turn) {
+  const Eigen::Matrix3d moved = turn * last_turn_.inverse();
+  const double angle = Eigen::AngleAxisd(nearest_rotation(moved)).angle();
+  const Vec3 origin = X_JB.translation() - moved * last_.translation();  // of the world, as carried
   turned_ += angle;
   const double dt = time - time_;
   if (dt <= 0) return;
-  translations_.add(time, moved.translation().norm() / dt);
+  translations_.add(time, origin.norm() / dt);
   rotations_.add(time, angle / dt);
 }
 
@@ -95,16 +104,18 @@ void RawMotion::add_jerk(double time, const Vec3& p) {
   if (n_points_ < 3) ++n_points_;
 }
 
-void RawMotion::add(double time, const Pose& X_JB) {
+void RawMotion::add(double time, const Pose& X_JB, const std::optional<Eigen::Matrix3d>& given) {
+  const Eigen::Matrix3d turn = given.value_or(Eigen::Matrix3d(X_JB.linear()));
   const double step = started_ ? (X_JB.translation() - last_.translation()).norm() : 0;
   if (started_) {
     elapsed_ += time - time_;
     path_ += step;
-    add_speeds(time, X_JB);
+    add_speeds(time, X_JB, turn);
   }
   if (body_ != nullptr) add_tissue(time, X_JB, step);
   add_jerk(time, X_JB.translation());
   last_ = X_JB;
+  last_turn_ = turn;
   time_ = time;
   started_ = true;
 }

@@ -37,15 +37,18 @@ class RawMotion {
   /// `body`: may be null: then nothing is said about tissue. `needle`: whether z is a shaft.
   RawMotion(std::shared_ptr<const Scene> body, bool needle);
 
+  /// `given`: the orientation as the tracker's matrix has it, which is a little off a rotation and
+  /// which PerkTutor inverts as it is; its rotations are those. Empty: that of the pose.
   /// Requires: a rigid pose, m; times that do not fall, s. Cost: a few queries.
-  void add(double time, const Pose& X_JB);
+  void add(double time, const Pose& X_JB,
+           const std::optional<Eigen::Matrix3d>& given = std::nullopt);
 
   /// The table's rows, in PerkTutor's names and units (mm).
   [[nodiscard]] std::vector<Metric> metrics(const std::string& role) const;
 
  private:
   void add_tissue(double time, const Pose& X_JB, double step);
-  void add_speeds(double time, const Pose& X_JB);
+  void add_speeds(double time, const Pose& X_JB, const Eigen::Matrix3d& turn);
   void add_jerk(double time, const Vec3& p);
   void add_puncture(const Pose& X_JB, bool inside);
 
@@ -54,6 +57,7 @@ class RawMotion {
   bool started_ = false;
   double time_ = 0;
   Pose last_ = Pose::Identity();
+  Eigen::Matrix3d last_turn_ = Eigen::Matrix3d::Identity();  // as given
   bool inside_ = false;
   std::optional<NeedleInside> shaft_;
   double elapsed_ = 0;      // s

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/core/units.h"
 #include "tests/session/session_support.h"
 
 namespace artus {
@@ -23,6 +24,26 @@ class RawMotionTest : public testing::Test {
   std::shared_ptr<const Scene> block_ = test::make_layered_scene();
   RawMotion motion_{block_, true};
 };
+
+TEST_F(RawMotionTest, AMatrixOffARotationIsTakenAsItIs) {
+  // Two matrices of six digits whose step is a quarter turn but for what the first one's scale
+  // leaves: M2 M1^-1 has the rotation nearest to it, not that of the two nearest rotations.
+  Eigen::Matrix3d first = Eigen::Matrix3d::Identity();
+  first(0, 1) = 2e-3;  // sheared: not a rotation
+  const Eigen::AngleAxisd quarter(1.5, Vec3::UnitZ());
+  const Eigen::Matrix3d second = quarter.toRotationMatrix();
+  Pose pose = Pose::Identity();
+  motion_.add(0, pose, first);
+  pose.linear() = second;
+  motion_.add(1, pose, second);
+  // the shear's rotation is half of it, about z: its inverse turns the other way by atan(s / 2)
+  const double sheared = std::atan2(2e-3, 2.0);
+  EXPECT_NEAR(value(motion_, "Rotation Total"), (1.5 + sheared) / kDegree, 1e-9);
+  RawMotion rigid(block_, true);
+  rigid.add(0, Pose::Identity());
+  rigid.add(1, pose);
+  EXPECT_NEAR(value(rigid, "Rotation Total"), 1.5 / kDegree, 1e-9);
+}
 
 TEST_F(RawMotionTest, StraightInAndOutSweepsNothingAndWalksTwiceTheDepth) {
   for (int i = 0; i <= 200; ++i) {
