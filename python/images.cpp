@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -136,12 +137,15 @@ class PyRenderer {
     labels_ = std::make_unique<LabelRenderer>(transducer_, settings_);
   }
 
-  PicturePtr render(const Numbers& probe, const std::optional<Numbers>& needle) {
+  PicturePtr render(const Numbers& probe, const std::optional<Numbers>& needle,
+                    std::optional<double> time) {
+    if (time && !std::isfinite(*time)) throw py::value_error("time must be finite");
     const Pose X_JP = pose_of(probe, "probe");
     const std::optional<NeedleView> view = needle_of(needle);
     auto picture = std::make_shared<Picture>();
     const py::gil_scoped_release others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
+    renderer_->set_flow_time(time);
     copy(renderer_->render(X_JP, view), *picture);
     return picture;
   }
@@ -257,7 +261,7 @@ py::tuple picture_state(const Picture& picture) {
   return py::make_tuple(f.status, f.n_lines, f.n_samples, f.sample_depth, f.width, f.height,
                         f.pixel, tip, bytes_of(f.image), bytes_of(f.contact), picture.has_lines,
                         bytes_of(f.in_phase), bytes_of(f.quadrature), bytes_of(f.envelope),
-                        bytes_of(f.decibel));
+                        bytes_of(f.decibel), bytes_of(f.velocity), bytes_of(f.motion_db));
 }
 
 PicturePtr picture_of_state(const py::tuple& state) {
@@ -278,7 +282,8 @@ PicturePtr picture_of_state(const py::tuple& state) {
   f.contact = vector_of<float>(state[9]);
   picture->has_lines = state[10].cast<bool>();
   std::size_t at = 11;
-  for (auto* lines : {&f.in_phase, &f.quadrature, &f.envelope, &f.decibel})
+  for (auto* lines :
+       {&f.in_phase, &f.quadrature, &f.envelope, &f.decibel, &f.velocity, &f.motion_db})
     *lines = vector_of<float>(state[at++]);
   return picture;
 }
@@ -301,6 +306,8 @@ py::array lines_view(const py::object& self, const std::vector<T> Frame::*member
   const Picture& picture = py::cast<const Picture&>(self);
   if (!picture.has_lines)
     throw py::value_error("the lines were not kept: make the Renderer with keep_lines=True");
+  if ((picture.frame.*member).empty())
+    throw py::value_error("nothing that moves was looked for: make the Renderer with doppler=True");
   return view((picture.frame.*member).data(), {picture.frame.n_lines, picture.frame.n_samples},
               self);
 }
@@ -332,6 +339,13 @@ void add_pictures(py::module_& module) {
       .def_property_readonly(
           "decibel", [](const py::object& s) { return lines_view(s, &Frame::decibel); },
           "(lines, samples) float32 dB, with keep_lines=True.")
+      .def_property_readonly(
+          "velocity", [](const py::object& s) { return lines_view(s, &Frame::velocity); },
+          "(lines, samples) float32 m/s toward the probe, NaN where nothing moves; with "
+          "keep_lines=True and doppler=True.")
+      .def_property_readonly(
+          "motion_db", [](const py::object& s) { return lines_view(s, &Frame::motion_db); },
+          "(lines, samples) float32 dB, how strong the echo of what moves is; where velocity is.")
       .def_property_readonly(
           "contact",
           [](const py::object& self) {
@@ -376,7 +390,11 @@ void add_images(py::module_& module) {
            py::arg("joint"), py::arg("transducer") = "linear-6-18", py::arg("keep_lines") = false,
            py::arg("gauge") = 22)
       .def("render", &PyRenderer::render, py::arg("probe"), py::arg("needle") = py::none(),
-           "The Frame of a probe at (4, 4) m in J, with a needle at (4, 4) m, origin at its tip.")
+           py::arg("time") = py::none(),
+           "The Frame of a probe at (4, 4) m in J, with a needle at (4, 4) m, origin at its tip. "
+           "With "
+           "doppler=True blood runs as it does at `time` (s), and tissue has moved since the frame "
+           "before; None: nothing moves.")
       .def(py::pickle([](const PyRenderer& r) { return r.state(); }, &PyRenderer::of_state))
       .def("labels", &PyRenderer::labels, py::arg("probe"), py::arg("needle") = py::none(),
            py::arg("truth") = "shown",
