@@ -66,10 +66,10 @@ class Registered {
     }
   }
   [[nodiscard]] Pose probe(const Pose& X_RS) const {
-    return calibration_.X_JR * X_RS * calibration_.X_ProbeP;
+    return calibration_.X_JR * calibration_.scaled(X_RS) * calibration_.X_ProbeP;
   }
   [[nodiscard]] Pose needle(const Pose& X_RS) const {
-    return calibration_.X_JR * X_RS * calibration_.X_NeedleN;
+    return calibration_.X_JR * calibration_.scaled(X_RS) * calibration_.X_NeedleN;
   }
 
  private:
