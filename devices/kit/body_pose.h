@@ -30,10 +30,10 @@ struct BodyPose {
   [[nodiscard]] Eigen::Matrix3d covariance_at(const Vec3& p_B) const;
 };
 
-inline constexpr double kCornerNoise = 0.1;  // pixels, at least
-inline constexpr double kFarMarker = 0.8;    // pixels, rms of a marker's corners
-inline constexpr double kSureRatio = 2;      // of the second pose's rms
-inline constexpr double kSamePose = 0.1745;  // rad; poses further apart are two
+inline constexpr double kCornerNoise = 0.08;  // pixels, at least
+inline constexpr double kFarMarker = 0.8;     // pixels, rms of a marker's corners
+inline constexpr double kSureRatio = 2;       // of the second pose's rms
+inline constexpr double kSamePose = 0.1745;   // rad; poses further apart are two
 
 /// The pose from all of the body's markers that were seen, two at least: from `before` (may be
 /// null) and from each marker's own two poses by itself, least squares over all corners, the best

@@ -97,8 +97,8 @@ class Sheet {
     line(x, y, x + kLength, y);
     for (int i = 0; i <= 10; ++i)
       line(x + i * kLength / 10, y, x + i * kLength / 10, y + (i % 5 == 0 ? 4e-3 : 2.5e-3));
-    text(x + kLength + 3e-3, y,
-         "this line is 100 mm: measure it. If not, print at 100 % or tell --ruler-mm");
+    text(x + kLength + 2e-3, y, "this line is 100 mm: measure it (--ruler-mm tells another)",
+         2.2e-3);
   }
   [[nodiscard]] double half_width() const { return width_ / 2; }
   [[nodiscard]] double half_height() const { return height_ / 2; }
@@ -173,8 +173,8 @@ Result<void> write_ground(const std::filesystem::path& file, Paper paper) {
   sheet.frame(-0.09, -0.05, 0.18, 0.1);
   draw_cross(sheet, 0, 0);
   sheet.text(-0.085, 0.043, "artus hands: the block stands here, its middle on the cross");
-  sheet.text(-0.03, -sheet.half_height() + 22e-3, "this edge towards the camera");
-  sheet.ruler(-0.1, -sheet.half_height() + 8e-3);
+  sheet.text(-0.02, -0.08, "this edge towards the camera", 2.8e-3);
+  sheet.ruler(-0.085, -0.045);
   return sheet.write(file);
 }
 

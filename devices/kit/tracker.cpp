@@ -18,7 +18,7 @@ constexpr double kDeviations = 2;    // of 95 %, of the whole spread in space
 /// A body whose tool's place is not sure counts as not seen: two markers of one face say little of
 /// a tip that is 90 mm away.
 std::optional<BodyPose> if_sure(std::optional<BodyPose> body, const Pose& tool) {
-  constexpr double kSure = 2.3e-3;  // m, 95 %
+  constexpr double kSure = 1.9e-3;  // m, 95 %
   if (body && kDeviations * std::sqrt(body->covariance_at(tool.translation()).trace()) > kSure)
     body.reset();
   return body;

@@ -211,7 +211,7 @@ TEST(KitCamera, RenderedBoardsGiveTheLensWithinTheToldError) {
   std::printf("focal length off by %.3f %%, told %.3f %%, of %d pictures\n", 100 * off,
               100 * lens->focal_error, camera.pictures());
   EXPECT_LT(off, 0.005);
-  EXPECT_LE(off, std::max(lens->focal_error, 0.001));
+  EXPECT_LE(off, lens->focal_error);
 }
 
 TEST(KitFile, IsReadAsItWasWrittenAndFaultsAreToldAtOnce) {

@@ -172,7 +172,7 @@ cv::Mat develop(cv::Mat1f light, const ViewFlaws& flaws, std::mt19937_64& random
     }
   if (flaws.blur > 0) cv::GaussianBlur(light, light, {}, flaws.blur);
   cv::Mat1f noise(light.size());
-  cv::RNG rng(random());
+  cv::RNG rng(random() + flaws.picture);
   rng.fill(noise, cv::RNG::NORMAL, 0, flaws.noise);
   light += noise;
   cv::max(light, 0, light);

@@ -15,12 +15,13 @@ struct ViewFlaws {
   double blur = 0.7;    ///< pixels, standard deviation
   double noise = 0.01;  ///< of the brightest
   double gamma = 2.2;
-  double sharpening = 0.3;  ///< share of the unsharp mask
-  int jpeg = 80;            ///< quality; 0: none
-  double uneven = 0.4;      ///< share by which light falls off over the picture
-  double light = 1;         ///< of all
-  int clutter = 40;         ///< things in the background
-  double hidden = 0.07;     ///< share of markers with a finger on them
+  double sharpening = 0.3;    ///< share of the unsharp mask
+  int jpeg = 80;              ///< quality; 0: none
+  double uneven = 0.4;        ///< share by which light falls off over the picture
+  double light = 1;           ///< of all
+  int clutter = 40;           ///< things in the background
+  double hidden = 0.07;       ///< share of markers with a finger on them
+  std::uint64_t picture = 0;  ///< which of a scene's pictures: the noise alone differs
 };
 
 /// A body as it stands before the camera, with or without the paper around its markers.

@@ -44,7 +44,7 @@ struct Misses {
 
 void follow_one(const Kit& real, const Kit& known, std::uint64_t seed,
                 const test::ViewRenderer& renderer, Misses& out) {
-  constexpr int kPictures = 5;
+  constexpr int kPictures = 7;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> any(0, 1);
   test::KitScene scene =
@@ -52,8 +52,9 @@ void follow_one(const Kit& real, const Kit& known, std::uint64_t seed,
   Tracker tracker(known);
   for (int k = 0; k < kPictures; ++k) {
     scene.X_SN.translation() += Vec3(0.4e-3, 0, -0.3e-3);
-    const cv::Mat view = renderer.render(test::bodies_of(scene, real), {},
-                                         seed * 10 + static_cast<std::uint64_t>(k));
+    test::ViewFlaws flaws;
+    flaws.picture = static_cast<std::uint64_t>(k);
+    const cv::Mat view = renderer.render(test::bodies_of(scene, real), flaws, seed);
     const std::clock_t begin = std::clock();
     const HandsFrame frame = tracker.take(view, k / 30.0);
     out.seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -86,7 +87,7 @@ TEST(KitTracking, RenderedHandsAreFoundWithinTheBars) {
   kit.tip_error = kit.face_error = 0;
   const test::ViewRenderer renderer(kit.lens);
   Misses misses;
-  const int n = trials(20);
+  const int n = trials(16);
   for (int k = 0; k < n; ++k)
     follow_one(kit, kit, static_cast<std::uint64_t>(k + 1), renderer, misses);
   print("exact bodies", misses);
@@ -94,7 +95,7 @@ TEST(KitTracking, RenderedHandsAreFoundWithinTheBars) {
   EXPECT_LE(percentile(misses.space, 0.95), 1.7e-3);
   EXPECT_LE(misses.wrong, 2 * misses.found / 1000);
   EXPECT_GE(misses.covered, 0.9 * misses.found);
-  EXPECT_GE(misses.found, 0.35 * misses.pictures) << "the first two of five may not count";
+  EXPECT_GE(misses.found, 0.33 * misses.pictures) << "the first two of seven do not count";
   EXPECT_LE(percentile(misses.plunger, 0.95), 0.3e-3);
 }
 
@@ -103,7 +104,7 @@ TEST(KitTracking, RenderedHandsAreFoundWithinTheBars) {
 TEST(KitTracking, ACalibratedKitIsWithinTheBarsToo) {
   cv::setNumThreads(1);
   Misses misses;
-  const int n = trials(8);
+  const int n = trials(6);
   Kit known;
   known.lens.distortion = {0.08, -0.12, 5e-4, -3e-4, 0};
   known.lens.focal_error = 0.006;
