@@ -26,7 +26,6 @@ namespace artus::kit {
 namespace {
 
 constexpr double kBlock = 50e-3;  // m
-constexpr double kRate = 12;      // pictures a second
 
 /// The sheet's frame in the joint, for a task whose probe stands on the middle of the block.
 Pose sheet_in_joint(const Scenario& scenario) {
@@ -49,12 +48,13 @@ double way_at(double time, double length) {
 
 /// Tracked poses in the joint, over the messages that a session takes.
 TrackedList follow(const Scenario& scenario, double length, const std::string& folder) {
-  constexpr double kLasts = 5.2;  // s
+  constexpr double kLasts = 5.2;                   // s
+  const double rate = folder.empty() ? 12.0 : 30;  // pictures a second
   Kit kit;
   kit.block_height = kBlock;
   const test::ViewRenderer renderer(kit.lens);
   test::ViewFlaws flaws;
-  flaws.hidden = 0.01;
+  flaws.hidden = 0;
   Tracker tracker(kit);
   TrackerInbox inbox({}, {});
   inbox.register_at(block_in_joint(scenario.X_JP));
@@ -65,7 +65,7 @@ TrackedList follow(const Scenario& scenario, double length, const std::string& f
   const Vec3 direction = (scenario.target.point - scenario.entry.centre).normalized();
   TrackedList list;
   std::int64_t number = 0;
-  for (double time = 0; time < kLasts; time += 1 / kRate, ++number) {
+  for (double time = 0; time < kLasts; time += 1 / rate, ++number) {
     const Vec3 tip = scenario.entry.centre + (way_at(time, length) - 18e-3) * direction;
     const double steep = std::asin(direction.z());
     scene.X_SN = test::needle_towards(scenario.X_JP.inverse() * tip, steep, 0, scene.X_SP);
