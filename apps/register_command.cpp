@@ -47,6 +47,8 @@ void print(const std::vector<LandmarkPair>& pairs, const Registration& fit, bool
 
 /// By landmarks that were touched, with what their fit is printed.
 Result<void> register_by_pairs(const RegisterOptions& options, TrackerCalibration& calibration) {
+  if (options.joint.joint.empty() && options.joint.surfaces.empty())
+    return fail(ErrorCode::malformed, "landmarks are a joint's: name it", "--joint");
   const auto joint = load(options.joint, make_progress_printer(options.json));
   ARTUS_TRY(joint);
   auto pairs = read_landmark_pairs(options.pairs, **joint);
@@ -80,7 +82,7 @@ Result<void> take_insertion(const std::string& text, TrackerCalibration& calibra
 
 Result<void> run_register(const RegisterOptions& options) {
   if (options.pairs.empty() && options.scenario.empty() && options.insertion.empty())
-    return fail(ErrorCode::malformed, "say how: --pairs, --scenario or --insertion", "register");
+    return fail(ErrorCode::malformed, "say how: --pairs, --scenario or --insertion", "--pairs");
   TrackerCalibration calibration;
   if (!options.calibration.empty()) {
     auto earlier = read_tracker_calibration(options.calibration);
@@ -115,6 +117,7 @@ void add_register_command(Command& app, ExitCode& code) {
       "  artus register --insertion 0,0,0,0,0,-1 -o device.toml     where a device lets a needle "
       "in");
   add_joint_options(command, options->joint);
+  command->get_option("--joint")->required(false);
   command->add_option("--pairs", options->pairs, "landmarks and touched points (.csv)");
   command->add_option("--scenario", options->scenario,
                       "the middle of a block's top is where this task's probe stands at first");
