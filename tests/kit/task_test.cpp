@@ -48,7 +48,7 @@ double way_at(double time, double length) {
 
 /// Tracked poses in the joint, over the messages that a session takes.
 TrackedList follow(const Scenario& scenario, double length, const std::string& folder) {
-  constexpr double kLasts = 5.2;                   // s
+  const double lasts = folder.empty() ? 5.2 : 6;   // s; the kept ones are shown again and again
   const double rate = folder.empty() ? 12.0 : 30;  // pictures a second
   Kit kit;
   kit.block_height = kBlock;
@@ -65,7 +65,7 @@ TrackedList follow(const Scenario& scenario, double length, const std::string& f
   const Vec3 direction = (scenario.target.point - scenario.entry.centre).normalized();
   TrackedList list;
   std::int64_t number = 0;
-  for (double time = 0; time < kLasts; time += 1 / rate, ++number) {
+  for (double time = 0; time < lasts; time += 1 / rate, ++number) {
     const Vec3 tip = scenario.entry.centre + (way_at(time, length) - 18e-3) * direction;
     const double steep = std::asin(direction.z());
     scene.X_SN = test::needle_towards(scenario.X_JP.inverse() * tip, steep, 0, scene.X_SP);
