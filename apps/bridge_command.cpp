@@ -15,12 +15,13 @@
 namespace artus {
 namespace {
 
-constexpr std::array<const char*, 3> kMakers{"touch", "force-dimension", "haply"};
+constexpr std::array<const char*, 4> kMakers{"touch", "force-dimension", "haply", "virtuose"};
 constexpr const char* kUsage =
     "Let a haptic device move and push\n\n"
     "Usage: artus bridge [list | check | limits] [MAKER[:DEVICE[=needle|=probe]] ...] [flags]\n\n";
 constexpr const char* kForms =
-    "Makers: touch (OpenHaptics), force-dimension (also falcon), haply. The flags of a maker's "
+    "Makers: touch (OpenHaptics), force-dimension (also falcon), haply, and virtuose where it was "
+    "built with its SDK. The flags of a maker's "
     "program: artus bridge touch --help (docs/bridges.md)\n"
     "Examples:\n"
     "  artus bridge list\n"

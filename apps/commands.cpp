@@ -42,6 +42,7 @@ void add_commands(Command& app, ExitCode& code) {
   add_serve_command(app, code);
   add_shm_monitor_command(app.subcommand("serve"), code);
   add_bridge_command(app, code);
+  add_hands_command(app, code);
   add_register_command(app, code);
   add_laws_command(app, code);
 

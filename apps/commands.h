@@ -10,6 +10,7 @@ void add_commands(Command& app, ExitCode& code);
 // One file each, but for the ratings, which stand with the learners.
 void add_assess_command(Command& app, ExitCode& code);
 void add_bridge_command(Command& app, ExitCode& code);
+void add_hands_command(Command& app, ExitCode& code);
 void add_check_command(Command& app, ExitCode& code);
 void add_compile_command(Command& app, ExitCode& code);
 void add_deform_command(Command& app, ExitCode& code);

@@ -9,6 +9,7 @@
 
 #include "artus/detail/apps/bridge_command.h"
 #include "artus/detail/apps/commands.h"
+#include "artus/detail/apps/hands_command.h"
 #include "artus/detail/apps/options/old_names.h"
 #include "artus/detail/apps/validate_command.h"
 #include "artus/detail/core/known_names.h"
@@ -31,6 +32,8 @@ int run(const std::vector<std::string>& arguments) {
     return static_cast<int>(artus::run_validation({arguments.begin() + 1, arguments.end()}));
   if (!arguments.empty() && arguments.front() == "bridge")
     return static_cast<int>(artus::run_bridge({arguments.begin() + 1, arguments.end()}));
+  if (!arguments.empty() && arguments.front() == "hands")
+    return static_cast<int>(artus::run_hands({arguments.begin() + 1, arguments.end()}));
   artus::Command app(
       "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
       "Not a medical device.");

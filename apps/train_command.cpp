@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "artus/detail/apps/hands_command.h"
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/scenario_options.h"
@@ -10,7 +11,9 @@
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/trainer/flow.h"
+#include "artus/detail/trainer/hands_pages.h"
 #include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
@@ -26,6 +29,8 @@ struct TrainCommandOptions {
   std::filesystem::path records;
   std::filesystem::path attempts;
   TrainOptions train;
+  std::string hands;          // webcam, a file or a folder: the kit's camera
+  std::filesystem::path kit;  // its file
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -79,6 +84,48 @@ Result<void> take_places(TrainCommandOptions& options) {
   return {};
 }
 
+/// --hands: poses come by OpenIGTLink from artus-hands, which this program starts. Nothing without
+/// that flag.
+Result<HandsSetup> take_hands(TrainCommandOptions& options) {
+  constexpr double kHold = 100;  // ms: a camera of 30 Hz may miss two pictures
+  if (options.hands.empty()) return HandsSetup();
+  SessionOptions& session = options.session;
+  session.input = "igtl";
+  if (session.igtl.listen.empty()) session.igtl.listen = "127.0.0.1:0";
+  session.igtl.needle_hold_ms = std::max(session.igtl.needle_hold_ms, kHold);
+  auto program = find_hands_program();
+  ARTUS_TRY(program);
+  const auto beside = std::filesystem::absolute(options.records).parent_path();
+  if (options.kit.empty()) options.kit = beside / "hands.toml";
+  return HandsSetup{*program, options.hands, options.kit, beside / "hands-prints"};
+}
+
+/// The first page, then the program that sees the hands, giving them to the session that listens;
+/// null: someone left. Errors: invalid (--igtl connects out).
+Result<std::unique_ptr<HandsProgram>> begin_hands(Screen& screen, const PageOptions& pages,
+                                                  const HandsSetup& hands, SessionLink* link) {
+  const int port = link == nullptr ? 0 : link->server().port();
+  if (port == 0)
+    return fail(ErrorCode::invalid, "--hands needs a port to give poses to: --igtl PORT", "--igtl");
+  PageWindow first(screen, pages);
+  const auto ready = lead_to_hands(first, hands, pages.language);
+  ARTUS_TRY(ready);
+  if (!*ready) return std::unique_ptr<HandsProgram>();
+  return std::make_unique<HandsProgram>(
+      hands.program, std::vector<std::string>{"run", hands.source, "-k", hands.kit.string(),
+                                              "--connect", "127.0.0.1:" + std::to_string(port)});
+}
+
+/// The middle of the block is where the task's probe stands at first, unless the calibration says
+/// where it is.
+void register_by_task(const TrackerInput& tracker, AttemptSetup& setup) {
+  setup.input = kPaperHands;
+  if (tracker.calibration.registered) return;
+  setup.before_attempt = [inbox = tracker.inbox](const Scenario& scenario) {
+    inbox->register_at(block_in_joint(scenario.X_JP));
+  };
+}
+
 /// What the session's flags mean for attempts. `options` and `tracker` outlive it.
 Result<AttemptSetup> setup_of(const SessionOptions& options, const TrackerInput& tracker) {
   const auto device = chosen_device(options.device, options.own_device);
@@ -93,6 +140,7 @@ Result<AttemptSetup> setup_of(const SessionOptions& options, const TrackerInput&
       return make_device(options, params, joint, tracker, &hand);
     };
   if (options.input == "igtl") setup.pose_hold = 1e-3 * options.igtl.needle_hold_ms;
+  setup.insertion = tracker.calibration.insertion;
   setup.rigid = options.rigid;
   setup.image_threads = options.threads;
   setup.haptic_cpu = options.haptic_cpu;
@@ -113,6 +161,8 @@ Result<void> train(TrainCommandOptions options) {
   }
   auto scenarios = scenarios_of(options);
   ARTUS_TRY(scenarios);
+  const auto hands = take_hands(options);
+  ARTUS_TRY(hands);
   options.window.language = language_of(options.language);
   Interrupts interrupts;
   options.window.asked_to_close = [&interrupts] {
@@ -136,8 +186,16 @@ Result<void> train(TrainCommandOptions options) {
       [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); },
       [&remote](const std::string& name) { return remote.ask(name); });
   ARTUS_TRY(link);
-  const auto setup = setup_of(options.session, *tracker);
+  auto setup = setup_of(options.session, *tracker);
   ARTUS_TRY(setup);
+  std::unique_ptr<HandsProgram> seeing;
+  if (!options.hands.empty()) {
+    auto begun = begin_hands(**screen, pages, *hands, link->get());
+    ARTUS_TRY(begun);
+    if (!*begun) return {};
+    seeing = std::move(*begun);
+    register_by_task(*tracker, *setup);
+  }
   const SceneLoader load = [](const Scenario& scenario, const std::filesystem::path& joint,
                               const Progress& progress) {
     return load_scene(scenario, joint, progress);
@@ -178,7 +236,9 @@ void add_train_command(Command& app, ExitCode& code) {
       "  artus train                                                  mouse, keyboard or gamepad\n"
       "  artus train --records school.db --cohort 2026 --input shared-memory --device touch\n"
       "  artus train gel-find --person grey-heron-42\n"
-      "  artus train mine.toml --igtl 18944 --input igtl");
+      "  artus train mine.toml --igtl 18944 --input igtl\n"
+      "  artus train --hands webcam                                   a webcam and printed "
+      "markers");
   command->add_option("scenario", options->train.scenario,
                       "a file, or the name of a bundled one; else the window asks");
   command->add_option("--person", options->train.person, "who trains; else the window asks");
@@ -195,6 +255,11 @@ void add_train_command(Command& app, ExitCode& code) {
                    "hand (mouse, keyboard, gamepad), shared-memory, igtl (a tracker, see --igtl), "
                    "or a recording")
       ->capture_default_str();
+  command->add_option("--hands", options->hands,
+                      "hands that a camera sees (docs/hands.md): webcam, webcam:NUMBER, a video or "
+                      "a folder of pictures");
+  command->add_option("--kit", options->kit,
+                      "file of the kit's measures (default: hands.toml, beside the records)");
   add_device_option(command, session.device);
   add_prefix_option(command, session.prefix);
   command->add_option("--haptic-cpu", session.haptic_cpu, "processor of the haptic thread; -1: any")

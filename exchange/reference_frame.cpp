@@ -37,6 +37,12 @@ igtl::Matrix millimetres_of(const Pose& pose) {
   return matrix;
 }
 
+Pose block_in_joint(const Pose& X_JP) {
+  Pose X_PR = Pose::Identity();
+  X_PR.linear().diagonal() = Vec3(1, -1, -1);
+  return X_JP * X_PR;
+}
+
 Result<Pose> rigid_from(const igtl::Matrix& matrix) {
   constexpr double kTolerance = 1e-3;  // of an axis' length and of the angles between them
   const Eigen::Matrix3d r = matrix.leftCols<3>();

@@ -28,6 +28,11 @@ class ReferenceFrame {
   Pose X_JR_;
 };
 
+/// Reference in the joint for hands over a block on a table (x and y along the table, z up, origin
+/// in the middle of the block's top): a probe that stands there, its x along the block's, is the
+/// one at `X_JP`.
+[[nodiscard]] Pose block_in_joint(const Pose& X_JP);
+
 /// A matrix in millimetres as a rigid pose in metres. Errors: as from_reference.
 [[nodiscard]] Result<Pose> rigid_from(const igtl::Matrix& matrix);
 [[nodiscard]] igtl::Matrix millimetres_of(const Pose& pose);

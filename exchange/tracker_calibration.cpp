@@ -121,6 +121,7 @@ Result<TrackerCalibration> parse_tracker_calibration(std::string_view text,
   TrackerCalibration calibration;
   read_matrix(root, "transducer_to_probe", calibration.X_ProbeP);
   read_matrix(root, "needle_tip_to_needle", calibration.X_NeedleN);
+  calibration.scale = root.number("scale", 0.5, 2).value_or(1);
   calibration.registered = read_matrix(root, "reference_to_joint", calibration.X_JR);
   calibration.insertion = read_insertion(root, problems);
   root.finish();
@@ -138,6 +139,11 @@ std::string to_toml(const TrackerCalibration& calibration) {
   std::string out =
       "# How a tracker's sensors sit on probe, needle and joint; millimetres, rows of each "
       "matrix.\n";
+  if (calibration.scale != 1) {
+    out += "scale = ";
+    append_number(out, calibration.scale);
+    out += "\n";
+  }
   append_matrix(out, "transducer_to_probe", calibration.X_ProbeP);
   append_matrix(out, "needle_tip_to_needle", calibration.X_NeedleN);
   if (calibration.registered) append_matrix(out, "reference_to_joint", calibration.X_JR);

@@ -13,7 +13,8 @@ namespace artus {
 
 /// How a tracker's sensors sit on the probe, the needle and the joint. As a file: TOML with the
 /// tables transducer_to_probe, needle_tip_to_needle and reference_to_joint, each of which may be
-/// missing and has `matrix`, four rows of four numbers in millimetres; and insertion_point with
+/// missing and has `matrix`, four rows of four numbers in millimetres; `scale`, 0.5 to 2; and
+/// insertion_point with
 /// point_mm, axis and, optional, beside_probe_mm and steepness_deg (docs/openigtlink.md). Of all
 /// hands: of trackers, of devices, of recorded files.
 struct TrackerCalibration {
@@ -23,11 +24,21 @@ struct TrackerCalibration {
   Pose X_NeedleN = Pose::Identity();
   /// The tracker's reference in the joint.
   Pose X_JR;
+  /// True lengths over those that the tracker says, where its scale is known to be off (a print
+  /// that is too small, a field that was calibrated with a wrong ruler). Of its poses' places in
+  /// Reference alone: sensors' matrices and devices in shared memory are 1:1, since any other scale
+  /// would change every stiffness.
+  double scale = 1;
   bool registered = false;  ///< reference_to_joint is known; else Reference is the joint in RAS
   /// Where the device's mechanics let a needle in, in W, and how it is laid beside the probe.
   std::optional<GestureParams> insertion;
 
   TrackerCalibration();
+  /// A pose in Reference as the tracker says it, in true lengths.
+  [[nodiscard]] Pose scaled(Pose X_RS) const {
+    X_RS.translation() *= scale;
+    return X_RS;
+  }
 };
 
 /// Errors: malformed (with line), invalid (unknown key, not 16 numbers, a matrix that is not

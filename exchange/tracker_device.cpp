@@ -21,6 +21,11 @@ bool is_power_of_two(std::uint64_t n) noexcept {
 TrackerInbox::TrackerInbox(const TrackerCalibration& calibration, const Names& names)
     : calibration_(calibration), reference_(calibration.X_JR), names_(names) {}
 
+void TrackerInbox::register_at(const Pose& X_JR) {
+  const std::lock_guard lock(registering_);
+  reference_ = ReferenceFrame(X_JR);
+}
+
 Result<void> TrackerInbox::take(const igtl::Message& message, std::int64_t now_ns) {
   if (message.type == "SENSOR" && message.device == names_.plunger)
     return take_plunger(message, now_ns);
@@ -98,7 +103,12 @@ void TrackerInbox::watch(bool probe, const Pose& pose, const igtl::Message& mess
 Result<void> TrackerInbox::take_pose(const std::string& device, const Result<igtl::Matrix>& matrix,
                                      const igtl::Message& message, std::int64_t now_ns) {
   const bool probe = device == names_.probe;
-  const auto pose = matrix ? reference_.from_reference(*matrix)
+  const std::lock_guard lock(registering_);
+  const auto scaled = [this](igtl::Matrix X_RS) {
+    X_RS.col(3) *= calibration_.scale;
+    return X_RS;
+  };
+  const auto pose = matrix ? reference_.from_reference(scaled(*matrix))
                            : Result<Pose>(tl::unexpected<Error>(matrix.error()));
   if (!pose) {
     newest_.refused_ns = now_ns;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -47,6 +48,10 @@ class TrackerInbox {
   /// TRANSFORM, a plunger that cannot be; then the thumb lets go.
   [[nodiscard]] Result<void> take(const igtl::Message& message, std::int64_t now_ns);
 
+  /// Poses that come from now on are of a Reference that is there in the joint: as a task begins
+  /// whose body stands elsewhere. From any thread.
+  void register_at(const Pose& X_JR);
+
   /// What is to be told of the message that was taken last: a pose that flipped (its axis turned by
   /// more than a right angle in a quarter of a second) or leapt (faster than 2 m/s), told when the
   /// number of them doubles; names that nobody asked for, once. Empty: nothing.
@@ -73,6 +78,7 @@ class TrackerInbox {
   };
 
   TrackerCalibration calibration_;
+  std::mutex registering_;  // of reference_
   ReferenceFrame reference_;
   Names names_;
   TrackedPoses newest_;  // as stored last; of the filling thread

@@ -66,10 +66,10 @@ class Registered {
     }
   }
   [[nodiscard]] Pose probe(const Pose& X_RS) const {
-    return calibration_.X_JR * X_RS * calibration_.X_ProbeP;
+    return calibration_.X_JR * calibration_.scaled(X_RS) * calibration_.X_ProbeP;
   }
   [[nodiscard]] Pose needle(const Pose& X_RS) const {
-    return calibration_.X_JR * X_RS * calibration_.X_NeedleN;
+    return calibration_.X_JR * calibration_.scaled(X_RS) * calibration_.X_NeedleN;
   }
   /// The same of orientations.
   [[nodiscard]] Eigen::Matrix3d probe_turn(const Eigen::Matrix3d& given) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "artus/detail/core/known_names.h"
 
@@ -12,6 +13,16 @@ namespace {
 Vec3 limit_norm(const Vec3& v, double limit) noexcept {
   const double norm = v.norm();
   return norm > limit ? Vec3(v * (limit / norm)) : v;
+}
+
+/// Devices that bridges drive and no published experiment used: makers' forces and workspaces of
+/// omega and falcon, assumed of inverse3; mass, damping and step assumed of all.
+std::array<DeviceLimits, 3> bridged_devices() {
+  return {{
+      {"omega", 12.0, 0.0, Vec3(0.16, 0.16, 0.11), 0.20, 1.0, 10e-6, 12.0, 0.0},
+      {"falcon", 8.0, 0.0, Vec3(0.10, 0.10, 0.10), 0.20, 1.0, 60e-6, 8.0, 0.0},
+      {"inverse3", 8.0, 0.0, Vec3(0.30, 0.20, 0.20), 0.15, 1.0, 20e-6, 8.0, 0.0},
+  }};
 }
 
 }  // namespace
@@ -26,7 +37,9 @@ std::array<DeviceLimits, 4> device_table() {
 }
 
 Result<DeviceLimits> find_device(std::string_view name) {
-  const auto devices = device_table();
+  std::vector<DeviceLimits> devices;
+  for (const DeviceLimits& device : device_table()) devices.push_back(device);
+  for (const DeviceLimits& device : bridged_devices()) devices.push_back(device);
   const auto at = find_name(item_names(devices), name, "device");
   ARTUS_TRY(at);
   return devices.at(*at);

@@ -22,6 +22,7 @@ Result<SessionParams> params_of(const TrainContext& room, const TrainTask& task)
   params->device = setup.device;
   params->image.n_threads = setup.image_threads;
   params->deform = !setup.rigid && gives_way(task.scene->joint());
+  if (setup.insertion) params->gesture = *setup.insertion;
   if (setup.pose_hold > 0) {
     constexpr double kMargin = 5e-3;  // s
     params->guard.stale_after = std::max(params->guard.stale_after, setup.pose_hold + kMargin);
@@ -90,8 +91,8 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
 /// Judges what was measured and says what the person is told of it.
 Result<void> judge_outcome(TrainDesk& desk, const Scenario& scenario, TrainOutcome& out) {
   PlayedAttempt& played = out.played;
-  played.judgement =
-      judge(played.measures.metrics, scenario.pass, scenario.score, out.record.aided);
+  played.judgement = judge(played.measures.metrics, scenario.pass, scenario.score, out.record.aided,
+                           out.record.device != kPaperHands);
   const auto& ticks = played.recording.ticks;
   const auto& needle = played.measures.needle;
   if (ticks.empty() && !needle.empty()) played.duration = needle.back().time - needle.front().time;
@@ -115,6 +116,7 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(options);
   LiveAttempt meter(task.scene, std::move(*options), params->haptic_rate);
   TrainOutcome out;
+  if (room.setup->before_attempt) room.setup->before_attempt(task.scenario);
   auto record = room.desk->begin(task.person, task.scenario, room.setup->input);
   ARTUS_TRY(record);
   out.record = *record;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -18,6 +19,9 @@
 
 namespace artus {
 
+/// The name in records of hands that a camera sees, which feel no force of ours.
+inline constexpr const char* kPaperHands = "hands";
+
 /// By which hands and on what an attempt runs.
 struct AttemptSetup {
   DeviceLimits device;
@@ -25,6 +29,10 @@ struct AttemptSetup {
   /// Makes the device of the hands; empty: mouse, keyboard and gamepad.
   std::function<Result<std::unique_ptr<InputDevice>>(const SessionParams&, const CompiledJoint&)>
       make_device;
+  /// Called before each attempt, as to register the hands with its body; empty: nothing to do.
+  std::function<void(const Scenario&)> before_attempt;
+  /// Where the device lets a needle in; empty: as the session has it.
+  std::optional<GestureParams> insertion;
   double pose_hold = 0;  ///< s that a device may hold a pose before it is stale; 0: the guard's own
   bool rigid = false;
   int image_threads = 0;      ///< 0: all

@@ -125,6 +125,15 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
                                translate(language, mark.held ? msgid("met") : msgid("missed"))}),
                      mark.held ? Tone::good : Tone::bad});
   }
+  if (outcome.record.device == kPaperHands)
+    lines.push_back({translate(language,
+                               "Your hands felt no force of the simulation: force, pressure and "
+                               "how hard bone was met are not judged"),
+                     Tone::dim});
+  for (const Mark& mark : judgement.unjudged)
+    lines.push_back(
+        {fill(translate(language, "{}: not judged"), {metric_words(language, mark.metric)}),
+         Tone::dim});
 }
 
 /// "2026-01-31 13:00" by this machine's clock of "2026-01-31T12:00:00Z".

@@ -87,15 +87,26 @@ MarkKind kind_of_mark(std::string_view metric) noexcept {
   return among(kPurposes) ? MarkKind::purpose : MarkKind::style;
 }
 
+bool needs_force(std::string_view metric) noexcept {
+  constexpr std::array<std::string_view, 4> kForces{"bone_peak_n", "bone_speed_mm_s",
+                                                    "plunger_peak_n", "pressure_peak_kpa"};
+  return metric.substr(0, 6) == "force_" ||
+         std::find(kForces.begin(), kForces.end(), metric) != kForces.end();
+}
+
 Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
-                std::span<const ScoreWeight> weights, bool with_aids) {
+                std::span<const ScoreWeight> weights, bool with_aids, bool felt) {
   Judgement out;
   out.with_aids = with_aids;
-  out.passed = !with_aids && !marks.empty();
+  out.passed = !with_aids;
   double sum = 0;
   double total = 0;
   double most = 100;
   for (const Mark& mark : marks) {
+    if (!felt && needs_force(mark.metric)) {
+      out.unjudged.push_back(mark);
+      continue;
+    }
     JudgedMark judged;
     judged.mark = mark;
     const Metric* metric = find_metric(metrics, mark.metric);
@@ -111,6 +122,7 @@ Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
     total += judged.weight;
     out.marks.push_back(std::move(judged));
   }
+  out.passed = out.passed && !out.marks.empty();
   const Metric* fatal = find_metric(metrics, "avoid_fatal");
   if (fatal != nullptr && fatal->value.value_or(0) > 0) {
     out.passed = false;

@@ -42,6 +42,7 @@ struct Judgement {
   /// more than a pass.
   double score = 0;
   std::vector<JudgedMark> marks;
+  std::vector<Mark> unjudged;  ///< marks that need a force that nobody felt
 };
 
 inline constexpr double kFailedScore = 60;
@@ -53,6 +54,10 @@ inline constexpr double kFatalScore = 20;
 enum class MarkKind { style, purpose, danger, fatal };
 [[nodiscard]] MarkKind kind_of_mark(std::string_view metric) noexcept;
 
+/// Whether a metric comes of a force, a pressure or how hard bone was met, which a hand must feel
+/// to hold it: nobody is judged by it whose hands gave no force.
+[[nodiscard]] bool needs_force(std::string_view metric) noexcept;
+
 /// Whole points of a score for people: rounded down, so that 100 means that every mark held.
 [[nodiscard]] int whole_points(double score) noexcept;
 
@@ -62,8 +67,10 @@ struct ScoreWeight {
   double weight = 1;
 };
 
-/// `metrics` against `marks`. An entry into what is fatal fails, marked or not.
+/// `metrics` against `marks`. An entry into what is fatal fails, marked or not. `felt`: the hands
+/// gave force; else marks that need it are left out and kept as unjudged.
 [[nodiscard]] Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
-                              std::span<const ScoreWeight> weights, bool with_aids);
+                              std::span<const ScoreWeight> weights, bool with_aids,
+                              bool felt = true);
 
 }  // namespace artus

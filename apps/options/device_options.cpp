@@ -19,7 +19,8 @@ void add_needle_length_option(Command* command, std::optional<double>& length_mm
 void add_device_option(Command* command, std::string& device) {
   command
       ->add_option("--device", device,
-                   "haptic device, for its force limits: touch, virtuose_6d_desktop, delta, ideal")
+                   "haptic device, for its force limits: touch, virtuose_6d_desktop, delta, omega, "
+                   "falcon, inverse3, ideal")
       ->capture_default_str();
 }
 

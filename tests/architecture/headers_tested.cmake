@@ -8,7 +8,7 @@ while(public)
   set(name_of_${file} artus/${name})
 endwhile()
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps raycast
-  haptics haptics/needle/laws haptics/needle haptics/probe haptics/plunger haptics/actuator)
+  haptics haptics/needle/laws haptics/needle haptics/probe haptics/plunger haptics/actuator devices/kit)
 # What only the source files of one header include, and whose tests are that header's.
 set(inner raycast/embree_api.h anatomy/compile/labels/distance_field_blocks.h)
 set(bad "")
@@ -16,6 +16,7 @@ foreach(room ${rooms})
   file(GLOB headers RELATIVE ${ROOT} ${ROOT}/${room}/*.h)
   # A room within a room is tested beside it.
   string(REGEX REPLACE "^(anatomy/compile|haptics/needle)/.*" "\\1" folder ${room})
+  string(REGEX REPLACE "^devices/" "" folder ${folder})
   file(GLOB tests ${ROOT}/tests/${folder}/*.cpp ${ROOT}/tests/${folder}/*.h)
   list(LENGTH headers n)
   if(n EQUAL 0)

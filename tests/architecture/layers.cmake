@@ -66,21 +66,25 @@ set(viewer viewer viewer/words viewer/input viewer/joint3d viewer/panels viewer/
 set(may_trainer ${may_evidence} exchange exchange/igtl reports ${viewer})
 set(may_python ${may_reports} anatomy/compile/mesh)
 set(may_meshes/generate core anatomy/surfaces)
+# Bridges include the C header of the shared memory alone.
+set(may_devices/bridges "")
+set(may_devices/kit core anatomy/surfaces exchange/igtl)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
 set(may_apps/sweep ${may_apps/options} apps/options)
 set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/label_maps apps/options)
+set(may_apps/hands ${may_apps/options} apps/options devices/kit)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
-  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps/sweep apps apps/validate)
+  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
-  "toml:core,anatomy/body,anatomy/source,anatomy/import,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
+  "toml:core,anatomy/body,anatomy/source,anatomy/import,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer,devices/kit" "hpdf:devices/kit"
   "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange,anatomy/import,anatomy/label_maps" "assimp/:anatomy/import" "draco/:anatomy/import" "zlib:anatomy/import,dataset,exchange" "hdf5:exchange" "expat:exchange"
   "sqlite3:training" "SQLiteCpp/:training"
-  "nlohmann/:anatomy/compile,anatomy/import,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
+  "nlohmann/:anatomy/compile,anatomy/import,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate,devices/bridges")
 
 # The rooms of public headers, which are included by their short names.
 include(${ROOT}/cmake/public_header_list.cmake)
@@ -92,7 +96,7 @@ endwhile()
 
 set(bad "")
 foreach(folder core anatomy raycast soft haptics echo operators dataset simulation session training evidence exchange reports
-    viewer trainer python apps meshes)
+    viewer trainer python apps meshes devices)
   file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.c)
   list(LENGTH found n)
   if(n EQUAL 0)

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 file(READ ${ROOT}/docs/references.md listed)
 set(bad "")
-foreach(folder core anatomy raycast haptics echo operators dataset simulation session evidence exchange reports python apps viewer trainer meshes docs)
+foreach(folder core anatomy raycast haptics echo operators dataset simulation session evidence exchange reports python apps viewer trainer meshes devices docs)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.toml ${ROOT}/${folder}/*.md)
   foreach(f ${files})
     file(READ ${f} text)

@@ -29,7 +29,7 @@ if(said MATCHES "a\\.h")
 endif()
 
 set(files "")
-foreach(folder core anatomy raycast soft haptics echo operators dataset simulation session training evidence exchange reports viewer trainer python apps meshes
+foreach(folder core anatomy raycast soft haptics echo operators dataset simulation session training evidence exchange reports viewer trainer python apps meshes devices
     bench tests)
   file(GLOB_RECURSE found ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.c)
   list(APPEND files ${found})

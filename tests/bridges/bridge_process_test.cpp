@@ -150,9 +150,12 @@ TEST_P(BridgeProcess, ListsLimitsAndChecksTheDevice) {
 
 INSTANTIATE_TEST_SUITE_P(Makers, BridgeProcess,
                          testing::Values(Maker{"touch", {"A", "B"}, 1, 0x0304},
-                                         Maker{"force-dimension", {"0", "1"}, 2, 7}),
+                                         Maker{"force-dimension", {"0", "1"}, 2, 7},
+                                         Maker{"virtuose-stand-in", {"0", "1"}, 2, 7}),
                          [](const auto& maker) {
-                           return maker.param.program == "touch" ? "Touch" : "ForceDimension";
+                           if (maker.param.program == "touch") return "Touch";
+                           return maker.param.program == "force-dimension" ? "ForceDimension"
+                                                                           : "Virtuose";
                          });
 
 TEST(BridgeProgram, SaysThatTheMakersLibraryIsMissing) {

@@ -221,6 +221,34 @@ TEST(TrackerCalibration, TheInsertionPointComesBackAndIsRefusedWithAReason) {
     EXPECT_FALSE(parse_tracker_calibration(std::string("[insertion_point]\n") + bad, "t")) << bad;
 }
 
+TEST(TrackerCalibration, AScaleIsOfPlacesInReferenceAlone) {
+  const auto read = parse_tracker_calibration("scale = 0.97\n", "t");
+  ASSERT_TRUE(read) << read.error().to_string();
+  EXPECT_EQ(parse_tracker_calibration(to_toml(*read), "t")->scale, 0.97);
+  EXPECT_FALSE(parse_tracker_calibration("scale = 25.4\n", "t")) << "a wrong unit is no scale";
+  TrackerCalibration calibration = *read;
+  calibration.X_JR = Pose::Identity();
+  calibration.X_NeedleN.translation() = Vec3(0, 0, 0.1);
+  TrackerInbox inbox(calibration, {});
+  const Pose X_RSensor = make_pose(Vec3(0.1, 0.2, 0.3), Vec3::UnitX(), Vec3::UnitZ());
+  ASSERT_TRUE(inbox.take(tracker_transform("NeedleToReference", millimetres_of(X_RSensor)), 1));
+  TrackedPoses poses;
+  ASSERT_TRUE(inbox.load(poses));
+  EXPECT_LT((to_pose(poses.X_WN).translation() - Vec3(0.197, 0.194, 0.291)).norm(), 1e-6);
+}
+
+TEST(TrackerInbox, IsRegisteredAnewAsATaskBegins) {
+  TrackerInbox inbox({}, {});
+  const Pose X_JP = make_pose(Vec3(0.05, 0.02, 0.1), Vec3::UnitY(), Vec3::UnitX());
+  inbox.register_at(block_in_joint(X_JP));
+  Pose X_RP = Pose::Identity();  // a probe on the block: its z down, its x along the block's
+  X_RP.linear().diagonal() = Vec3(1, -1, -1);
+  ASSERT_TRUE(inbox.take(tracker_transform("ProbeToReference", millimetres_of(X_RP)), 1));
+  TrackedPoses poses;
+  ASSERT_TRUE(inbox.load(poses));
+  EXPECT_TRUE(to_pose(poses.X_WP).isApprox(X_JP, 1e-6));
+}
+
 TEST(TrackerInbox, PutsCalibrationsAndRegistrationTogether) {
   TrackerCalibration calibration;
   calibration.X_ProbeP = some_pose();

@@ -57,6 +57,7 @@ TEST(DeviceFile, IsRefusedWithAllThatIsWrongInItsOwnUnits) {
 
 TEST(DeviceLimits, OfTheTableHoldForTheProbesHandToo) {
   EXPECT_EQ(find_device("touch")->probe_force, 3);
+  EXPECT_EQ(find_device("falcon")->force, 8) << "a device that a bridge drives";
   EXPECT_EQ(find_device("virtuose_6d_desktop")->probe_torque, 0.8);
   const DeviceLimits mixed = with_probe_device(*find_device("touch"), *find_device("delta"));
   EXPECT_EQ(mixed.force, 3);

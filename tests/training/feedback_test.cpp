@@ -33,7 +33,7 @@ TEST(Feedback, AGoodInjectionHasNoFault) {
   hands.inject(3, -0.01, -10);
   hands.inject(5, 0.2, 40);
   hands.go(2, -5);
-  const Feedback told = make_feedback(hands.measure(), {true, false, 100, {}}, {5, {}});
+  const Feedback told = make_feedback(hands.measure(), {true, false, 100, {}, {}}, {5, {}});
   EXPECT_THAT(told.faults, testing::IsEmpty())
       << told.faults.front().kind << ": " << told.faults.front().what;
   EXPECT_THAT(told.next, HasSubstr("next level"));
@@ -170,7 +170,7 @@ TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
   ScriptedHands hands;
   hands.go(4, 23);
   const AttemptMeasures clean = hands.measure();
-  const Judgement passed{true, false, 100, {}};
+  const Judgement passed{true, false, 100, {}, {}};
   const auto next = [&](std::vector<PastAttempt> before) {
     const Feedback told = make_feedback(clean, passed, {0, std::move(before)});
     EXPECT_EQ(told.next.find('(') == std::string::npos, told.next_scenario.empty());
@@ -206,7 +206,7 @@ TEST(Feedback, WhoDidNotFindWhatWasAskedForIsToldWhyAndLooksAgain) {
   // What was looked for says nothing of the needle, nor the other way round.
   ScriptedHands hands;
   hands.go(4, 23);
-  const Judgement passed{true, false, 100, {}};
+  const Judgement passed{true, false, 100, {}, {}};
   EXPECT_EQ(make_feedback(hands.measure(), passed, {0, {past, past, past}}).next_scenario,
             "gel-look");
   m.metrics = {{"found", "probe", "count", 2.0, "", {}}, {"find_s", "probe", "s", 9.0, "", {}}};

@@ -21,6 +21,23 @@ TEST(Judgement, AllMarksMustHold) {
   EXPECT_FALSE(judge(measured(2, 0.79), marks(), {}, false).passed);
 }
 
+TEST(Judgement, HandsThatFeelNothingAreNotJudgedByForce) {
+  std::vector<Mark> all = marks();
+  all.push_back(*parse_mark("bone_peak_n", "<= 3"));
+  all.push_back(*parse_mark("pressure_peak_kpa", "<= 50"));
+  auto metrics = measured(1, 0.9);
+  metrics.push_back({"bone_peak_n", "needle", "N", 9, "", {}});
+  EXPECT_FALSE(judge(metrics, all, {}, false).passed);
+  const Judgement unfelt = judge(metrics, all, {}, false, false);
+  EXPECT_TRUE(unfelt.passed);
+  EXPECT_EQ(unfelt.marks.size(), 2U);
+  ASSERT_EQ(unfelt.unjudged.size(), 2U);
+  EXPECT_EQ(unfelt.unjudged[0].metric, "bone_peak_n");
+  EXPECT_FALSE(judge(metrics, {{all[2]}}, {}, false, false).passed) << "nothing was judged";
+  EXPECT_TRUE(needs_force("force_peak_n:skin"));
+  EXPECT_FALSE(needs_force("bone_contacts"));
+}
+
 TEST(Judgement, NothingPassesWithAidsOn) {
   const Judgement judged = judge(measured(0, 1), marks(), {}, true);
   EXPECT_FALSE(judged.passed);
