@@ -140,7 +140,7 @@ void add_calibration_commands(Command& app, ExitCode& code) {
 
   auto file = std::make_shared<std::filesystem::path>();
   command = add_command(app, "state", "What of a kit was measured, in one line",
-                        "Example:\n  artus hands state -k hands.toml");
+                        "Examples:\n  artus hands state -k hands.toml");
   command->add_option("--kit,-k", *file, "file of the kit's measures")->required();
   on_run(command, code, [file] { return show_state(*file); });
 }

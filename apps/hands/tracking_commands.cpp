@@ -231,7 +231,7 @@ void add_tracking_commands(Command& app, ExitCode& code) {
 
   auto list = std::make_shared<TrackOptions>();
   command = add_command(app, "track", "Poses of a video or a folder as a table, for artus assess",
-                        "Example:\n"
+                        "Examples:\n"
                         "  artus hands track lesson.mp4 -k hands.toml -o poses.csv");
   add_picture_options(command, list->pictures, "a video or a folder of pictures");
   command->add_option("-o,--out", list->out, "table of poses (.csv)")->required();
