@@ -317,16 +317,9 @@ py::object tip_shown(const Picture& picture) {
   return py::make_tuple(picture.frame.tip_shown->x, picture.frame.tip_shown->y);
 }
 
-void add_pictures(py::module_& module) {
-  py::class_<Picture, PicturePtr>(module, "Frame",
-                                  "A B-mode image and what led to it; arrays are read-only views.")
-      .def_property_readonly(
-          "image",
-          [](const py::object& self) {
-            const Frame& frame = py::cast<const Picture&>(self).frame;
-            return view(frame.image.data(), {frame.height, frame.width}, self);
-          },
-          "(height, width) uint8.")
+/// What the picture was made of, line by line.
+void add_lines(py::class_<Picture, PicturePtr>& frame) {
+  frame
       .def_property_readonly(
           "in_phase", [](const py::object& s) { return lines_view(s, &Frame::in_phase); },
           "(lines, samples) float32, with keep_lines=True.")
@@ -345,7 +338,21 @@ void add_pictures(py::module_& module) {
           "keep_lines=True and doppler=True.")
       .def_property_readonly(
           "motion_db", [](const py::object& s) { return lines_view(s, &Frame::motion_db); },
-          "(lines, samples) float32 dB, how strong the echo of what moves is; where velocity is.")
+          "(lines, samples) float32 dB, how strong the echo of what moves is; where velocity is.");
+}
+
+void add_pictures(py::module_& module) {
+  py::class_<Picture, PicturePtr> frame(
+      module, "Frame", "A B-mode image and what led to it; arrays are read-only views.");
+  add_lines(frame);
+  frame
+      .def_property_readonly(
+          "image",
+          [](const py::object& self) {
+            const Frame& frame = py::cast<const Picture&>(self).frame;
+            return view(frame.image.data(), {frame.height, frame.width}, self);
+          },
+          "(height, width) uint8.")
       .def_property_readonly(
           "contact",
           [](const py::object& self) {
