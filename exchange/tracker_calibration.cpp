@@ -8,6 +8,7 @@
 #include "artus/detail/core/toml_table.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/simulation/plain_pose.h"
 
 namespace artus {
 namespace {
