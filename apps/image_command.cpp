@@ -140,7 +140,8 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-direction in -o "
       "tent.png\n"
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png\n"
-      "  artus image -j meshes/hip --probe=X --doppler 0 --doppler-limit 40 -o vessels.png");
+      "  artus image -j meshes/hip --depth 60 --probe=22,-64,15/0,0.9,-0.43/1,0,0 --doppler 0 "
+      "--doppler-limit 60 -o vessels.png");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);
   add_view_options(command, options->view);
