@@ -44,6 +44,18 @@ OperatorView view_of(const NeedleModel& model) noexcept {
   return view;
 }
 
+std::optional<double> deeper_than_planned(const NeedleContact& contact, RegionId region,
+                                          double planned) noexcept {
+  std::optional<double> nearest;
+  if (!contact.inserted()) return nearest;
+  for (const ShaftLayer& s : contact.tick().shaft) {
+    if (s.region != region) continue;
+    const double deeper = 0.5 * (s.entry + s.exit) - planned;
+    if (!nearest || std::abs(deeper) < std::abs(*nearest)) nearest = deeper;
+  }
+  return nearest;
+}
+
 InjectionOperator::InjectionOperator(const Vec3& entry, const Vec3& direction, double start_depth,
                                      std::vector<OperatorPhase> phases)
     : entry_(entry),

@@ -131,7 +131,7 @@ void ScanningOperator::correct(const Pose& X_JN) {
 }
 
 void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& glance, bool seen) {
-  const double left = (plan_.target - X_JN.translation()).dot(direction_) + judged_;
+  const double left = (plan_.target + glance.moved - X_JN.translation()).dot(direction_) + judged_;
   const double lag = skill_.reaction * skill_.speed;
   if (seen) {
     if (seen_time_ < 0) seen_time_ = time;
@@ -166,7 +166,7 @@ void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& gla
   } else if (glance.astray && nudges_ < kMaxNudges) {
     ++nudges_;
     if (draw() >= skill_.look) return;
-    const double left = (plan_.target - X_JN.translation()).dot(direction_);
+    const double left = (plan_.target + glance.moved - X_JN.translation()).dot(direction_);
     phase_distance_ += std::copysign(kNudge, left);
     phase_time_ = time;
   }

@@ -45,12 +45,14 @@ struct ScanPlan {
 
 /// What the eyes get at a glance.
 struct ScanGlance {
-  bool visible = false;  ///< the tip can be seen in the picture
-  double offset = 0;     ///< m, of the tip from the plane: what a look at the hands tells
-  double depth = 0;      ///< m, of the tip along its way from the entry
-  bool stuck = false;    ///< something hard is felt
-  bool astray = false;   ///< enough is given to be seen, and it does not run into the target
-  bool given = true;     ///< all is given that was to be, or nothing was
+  bool visible = false;       ///< the tip can be seen in the picture
+  double offset = 0;          ///< m, of the tip from the plane: what a look at the hands tells
+  double depth = 0;           ///< m, of the tip along its way from the entry
+  Vec3 moved = Vec3::Zero();  ///< m, how the tissue at the target has moved: the picture shows it
+                              ///< there
+  bool stuck = false;         ///< something hard is felt
+  bool astray = false;        ///< enough is given to be seen, and it does not run into the target
+  bool given = true;          ///< all is given that was to be, or nothing was
 };
 
 /// Two simulated hands, one with the probe and one with the needle, that see the tip only when it

@@ -27,7 +27,7 @@ SyringeCore::SyringeCore(const CompiledJoint& joint, const SessionParams& params
 
 SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
     : bevel_(0),
-      of_region_(std::move(spaces.of_region)),
+      places_(make_bevel_places(spaces)),
       plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
       guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0}, 1 / params.haptic_rate),
       dt_(1 / params.haptic_rate) {
@@ -76,7 +76,7 @@ bool SyringeCore::follow_travel(const DeviceSample& device, PlungerInput& input)
 
 void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact) noexcept {
   PlungerInput input;
-  input.tip = bevel_shares(contact, bevel_, of_region_);
+  input.tip = bevel_shares(contact, bevel_, places_);
   input.depth = contact.tick().depth;
   const double before = plunger_.state().content;
   told_ = std::max(0.0, told_ - dt_);
@@ -103,14 +103,15 @@ void SyringeCore::note_sites(const PlungerInput& input, const NeedleContact& con
     const auto known = space_of_site_.begin() + static_cast<std::ptrdiff_t>(n_sites_);
     if (n_sites_ == kMaxSites || std::find(space_of_site_.begin(), known, share.space) != known)
       continue;
-    const auto region = std::find(of_region_.begin(), of_region_.end(), share.space);
-    const auto first = static_cast<std::uint32_t>(region - of_region_.begin());
+    const auto& of_region = places_.of_region;
+    const auto region = std::find(of_region.begin(), of_region.end(), share.space);
+    const auto first = static_cast<std::uint32_t>(region - of_region.begin());
     InjectedSite& site = sites_[n_sites_];
     const NeedleTick& tick = contact.tick();
     const Vec3 p = tick.tip - bevel_ / 2 * tick.axis;
     for (Eigen::Index i = 0; i < 3; ++i) site.p_J[i] = p[i];
     site.volume = states[share.space].volume;
-    site.region = of_region_[contact.region()] == share.space ? contact.region() : first;
+    site.region = of_region[contact.region()] == share.space ? contact.region() : first;
     site.cavity = kind == SpaceKind::cavity ? 1 : 0;
     space_of_site_[n_sites_++] = share.space;
   }

@@ -64,7 +64,7 @@ class SyringeCore {
   void note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept;
 
   double bevel_;  // m
-  std::vector<std::uint32_t> of_region_;
+  BevelPlaces places_;
   Plunger plunger_;
   OutputGuard guard_;
   double zero_ = 0;  // m of the device's travel where the plunger's is 0

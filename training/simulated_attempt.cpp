@@ -122,7 +122,8 @@ class NeedleAttempt final : public SimulatedAttempt {
                 {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
                  appears_at(scenario, *scene_, finder_)},
                 mix_seed(scenario.seed, options.seed)),
-        thumb_(scenario.syringe, skill) {
+        thumb_(scenario.syringe, skill),
+        target_point_(scenario.target.point) {
     hands_.take_up(HandLoop({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
                             person_.intention(0).X_JN));
     const double volume = scenario.syringe.volume;
@@ -155,6 +156,8 @@ class NeedleAttempt final : public SimulatedAttempt {
     ScanGlance seen;
     seen.visible = sight.seen() && out.feedback.region != kOutside;
     seen.offset = sight.offset;
+    if (const auto* tissue = session_.simulation().scene()->tissue().get())
+      seen.moved = tissue->displacement(target_point_);
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
@@ -168,6 +171,7 @@ class NeedleAttempt final : public SimulatedAttempt {
   ScanningOperator person_;
   ThumbPlan thumb_;
   SimulatedHands hands_;
+  Vec3 target_point_;
   std::uint32_t target_ = kOutside;
 };
 

@@ -118,11 +118,11 @@ std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& l
 class Trial {
  public:
   /// `out`: with spec and plunger. `recording`: or null.
-  Trial(const Scene& scene, const SessionParams& params, std::vector<std::uint32_t> of_region,
-        InjectionRun& out, Recording* recording)
+  Trial(const Scene& scene, const SessionParams& params, BevelPlaces places, InjectionRun& out,
+        Recording* recording)
       : spec_(out.spec),
         out_(out),
-        of_region_(std::move(of_region)),
+        places_(std::move(places)),
         simulation_({std::shared_ptr<const void>(), &scene}, params),
         bevel_(bevel_length(out.plunger.needle.outer_diameter)) {
     hands_.set_thumb(DosingThumb(out.plunger, spec_.volume, spec_.rate_hz));
@@ -182,7 +182,7 @@ class Trial {
   void aim_at(RegionId region, const LineLayer& planned) {
     target_region_ = region;
     planned_ = planned;
-    target_ = of_region_[region];
+    target_ = places_.of_region[region];
     out_.target = plunger().spaces()[target_].name;
     out_.target_like = plunger().spaces()[target_].like;
   }
@@ -209,7 +209,7 @@ class Trial {
   [[nodiscard]] const Plunger& plunger() const { return simulation_.syringe().plunger(); }
   [[nodiscard]] const NeedleContact& contact() const { return simulation_.needle().contact(); }
   [[nodiscard]] std::array<TipShare, 2> shares() const {
-    return bevel_shares(contact(), bevel_, of_region_);
+    return bevel_shares(contact(), bevel_, places_);
   }
 
   /// A tick, and the tissue's step where it is an image's.
@@ -234,12 +234,10 @@ class Trial {
   /// Tissue that is pressed has its layers elsewhere: a picture tells by how much deeper the target
   /// lies along the needle than it was planned.
   void look() {
-    if (!contact().inserted() || body_ == simulation_.scene()) return;
+    if (body_ == simulation_.scene()) return;
     body_ = simulation_.scene();
-    const NeedleTick& needle = contact().tick();
-    const Vec3 skin = needle.tip - needle.depth * needle.axis;
-    const auto layer = find_layer(*body_, skin, needle.axis, target_region_);
-    if (layer) deeper_ = (layer->from + layer->to - planned_.from - planned_.to) / 2;
+    const double middle = (planned_.from + planned_.to) / 2;
+    deeper_ = deeper_than_planned(contact(), target_region_, middle).value_or(deeper_);
   }
 
   /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
@@ -302,7 +300,7 @@ class Trial {
 
   const InjectionSpec& spec_;
   InjectionRun& out_;
-  std::vector<std::uint32_t> of_region_;
+  BevelPlaces places_;
   Simulation simulation_;
   std::optional<SimulationRecorder> recorder_;  // empty: nobody wants it
   SimulatedHands hands_;
@@ -381,7 +379,7 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   const double through = beyond(scene, out, plan->layer, direction, *spaces);
   InjectionOperator person(spec.entry, direction, -kStartOutside,
                            phases_of(out, plan->layer, target, through));
-  Trial trial(scene, *params, std::move(spaces->of_region), out, recording);
+  Trial trial(scene, *params, make_bevel_places(*spaces), out, recording);
   trial.aim_at(plan->region, plan->layer);
   ARTUS_TRY(trial.run(person));
   trial.finish();

@@ -2,8 +2,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <span>
+#include <vector>
 
+#include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/haptics/needle/needle_contact.h"
 #include "artus/detail/haptics/plunger/plunger.h"
 
@@ -19,10 +20,21 @@ namespace artus {
   return 0.5 * bevel_length(outer_diameter);
 }
 
-/// In which places the opening of a needle's bevel lies: the layer of the tip and the one before
-/// it, by the bevel's length in each. Outside the body, in air. `of_region`: (n_regions), as
-/// JointSpaces has it. A thin layer between two others counts for what it takes of the bevel.
+/// m of tissue beside a cavity that does not hold liquid: it tears and lets it in; assumed.
+inline constexpr double kHoldingFilm = 0.5e-3;
+
+/// What a bevel needs to know of a joint's places.
+struct BevelPlaces {
+  std::vector<std::uint32_t> of_region;  ///< (n_regions), as JointSpaces has it
+  std::vector<SpaceKind> kinds;          ///< (n_spaces)
+};
+[[nodiscard]] BevelPlaces make_bevel_places(const JointSpaces& spaces);
+
+/// In which places the opening of a needle's bevel lies: that of the tip and one more, by the
+/// bevel's length in each. Outside the body, in air. Where the tip is in a cavity or has passed
+/// one, tissue within kHoldingFilm of it along the needle counts for the cavity: such a film tears.
+/// A thin layer between two others counts for what it takes of the bevel.
 [[nodiscard]] ARTUS_REALTIME std::array<TipShare, 2> bevel_shares(
-    const NeedleContact& contact, double bevel, std::span<const std::uint32_t> of_region) noexcept;
+    const NeedleContact& contact, double bevel, const BevelPlaces& places) noexcept;
 
 }  // namespace artus

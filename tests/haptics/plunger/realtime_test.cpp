@@ -45,8 +45,8 @@ TEST(RealTimePlunger, ItsLawsNeitherAllocateNorLock) {
   ARTUS_RUNS_REALTIME(NeedleFlow::drop, use(flow.drop(1e-7)));
   const LayerTable table;
   const NeedleContact contact({}, {}, table, 1e-3);
-  const std::vector<std::uint32_t> of_region{0};
-  ARTUS_RUNS_REALTIME(bevel_shares, use(bevel_shares(contact, 1e-3, of_region)));
+  const BevelPlaces places{{0}, {SpaceKind::open}};
+  ARTUS_RUNS_REALTIME(bevel_shares, use(bevel_shares(contact, 1e-3, places)));
 }
 
 }  // namespace
