@@ -56,7 +56,11 @@ class Examination {
     HealthMeasure m{"inverted", "inverted tetrahedra", "", {}, 0, ""};
     const LeastRatio least = find_least_ratio(q_.before->joint().mesh, now_.mesh, liquid_before_);
     if (least.compared == 0) return m;
-    m.value = static_cast<double>(least.inverted);
+    const auto counts = [this](std::size_t i) {
+      return !q_.after->tissue() || is_tissue_inverted(*q_.after->tissue(), i);
+    };
+    m.value =
+        static_cast<double>(std::count_if(least.inverted.begin(), least.inverted.end(), counts));
     m.where = printed("least volume %.3f of that at rest in ", least.ratio) +
               now_.regions[least.region].name + " at " + place(least.p_J);
     return m;
@@ -125,7 +129,8 @@ class Examination {
     const LabelRenderer renderer(wide, settings);
     const auto layout_of = [&](const Scene& scene, const std::vector<bool>& liquid) {
       LabelImage labels = renderer.render(scene, X_JP);
-      join_liquid(labels, liquid);
+      const std::vector<std::string> injected{"injected"};
+      join_liquid(labels, liquid, regions_named(scene.joint(), injected));
       const auto pixels = static_cast<int>(margin / kLabelPixel);
       const auto deep = static_cast<int>(kMargin / kLabelPixel);
       return find_layout(labels, {pixels, labels.width - pixels, 0, labels.height - deep},

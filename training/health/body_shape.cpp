@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "artus/detail/soft/solver/deformed_body.h"
-
 namespace artus {
 namespace {
 
@@ -79,7 +77,7 @@ LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now,
     if (!(volume > 0)) continue;
     ++least.compared;
     const double ratio = tet_volume(now, i) / volume;
-    if (!(ratio > 0)) ++least.inverted;
+    if (!(ratio > 0)) least.inverted.push_back(i);
     if (ratio >= least.ratio) continue;
     least.ratio = ratio;
     least.region = rest.regions[i];
@@ -87,6 +85,21 @@ LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now,
     for (const std::uint32_t v : rest.tetrahedra[i]) least.p_J += rest.vertices[v] / 4;
   }
   return least;
+}
+
+bool is_tissue_inverted(const DeformedBody& body, std::size_t tetrahedron) {
+  const TetMesh& mesh = body.joint().mesh;
+  if (!(tet_volume(mesh, tetrahedron) > 0)) return true;
+  const auto inverts = [&](const Vec3& p) {
+    return !(body.motion(p).gradient.determinant() > 0);
+  };
+  Vec3 middle = Vec3::Zero();
+  for (const std::uint32_t v : mesh.tetrahedra[tetrahedron]) middle += mesh.vertices[v] / 4;
+  bool inverted = inverts(middle);
+  for (const std::uint32_t v : mesh.tetrahedra[tetrahedron])
+    for (const double share : {0.25, 0.5, 0.75})
+      inverted = inverted || inverts(middle + share * (mesh.vertices[v] - middle));
+  return inverted;
 }
 
 std::size_t count_not_finite(std::span<const Vec3> points) {

@@ -19,24 +19,27 @@ bool inside(const LabelWindow& window, int x, int y) {
   return x >= window.left && x < window.right && y >= window.top && y < window.bottom;
 }
 
-/// Walks one piece from a pixel on; returns how many of its pixels lie in the window.
+/// Walks one piece from a pixel on; returns how many of its pixels lie in the window. `seen`: by
+/// pixel, the last region whose walk came there.
 std::size_t walk(const LabelImage& labels, const LabelWindow& window, std::size_t from,
-                 std::vector<bool>& seen) {
+                 std::vector<RegionId>& seen) {
   const auto width = static_cast<std::size_t>(labels.width);
+  const RegionId region = labels.regions[from];
   std::vector<std::size_t> open{from};
-  seen[from] = true;
+  seen[from] = region;
   std::size_t counted = 0;
   while (!open.empty()) {
     const std::size_t pixel = open.back();
     open.pop_back();
     const auto x = static_cast<int>(pixel % width);
     const auto y = static_cast<int>(pixel / width);
-    if (inside(window, x, y)) ++counted;
+    if (labels.regions[pixel] == region && inside(window, x, y)) ++counted;
     const auto visit = [&](int nx, int ny) {
       if (nx < 0 || ny < 0 || nx >= labels.width || ny >= labels.height) return;
       const std::size_t next = at(labels, nx, ny);
-      if (seen[next] || labels.regions[next] != labels.regions[pixel]) return;
-      seen[next] = true;
+      const RegionId there = labels.regions[next];
+      if (seen[next] == region || (there != region && there != kPartedRegion)) return;
+      seen[next] = region;
       open.push_back(next);
     };
     visit(x - 1, y);
@@ -48,32 +51,41 @@ std::size_t walk(const LabelImage& labels, const LabelWindow& window, std::size_
 }
 
 std::string name_of(RegionId region, const CompiledJoint& names) {
-  return region == kLiquidRegion ? "liquid" : names.regions[region].name;
+  return region >= kPartedRegion ? "liquid" : names.regions[region].name;
 }
 
 void add(std::string& list, const std::string& one) {
   list += (list.empty() ? "" : ", ") + one;
 }
 
-/// Whether liquid may come to touch it.
-bool may_touch(const std::pair<RegionId, RegionId>& pair, const std::vector<bool>& parted) {
-  if (pair.second != kLiquidRegion) return false;
-  return pair.first == kBeyond || (pair.first < parted.size() && parted[pair.first]);
+/// Whether the second, liquid, may come to touch the first.
+bool may_touch(const std::pair<RegionId, RegionId>& pair, const CompiledJoint& names,
+               const std::vector<bool>& parted) {
+  const auto [tissue, liquid] = pair;
+  if (liquid < kPartedRegion) return false;
+  if (tissue == kBeyond || tissue >= kPartedRegion) return true;
+  if (tissue < parted.size() && parted[tissue]) return true;
+  if (liquid == kLiquidRegion || tissue < kFirstRegion) return false;
+  const Tissue& known = names.tissue_of(tissue);
+  return !known.haptic.hard && known.acoustic.kind != TissueKind::skin;
 }
 
 }  // namespace
 
-void join_liquid(LabelImage& labels, const std::vector<bool>& liquid) {
+void join_liquid(LabelImage& labels, const std::vector<bool>& liquid,
+                 const std::vector<bool>& is_parted) {
   for (RegionId& region : labels.regions)
-    if (region < liquid.size() && liquid[region]) region = kLiquidRegion;
+    if (region < liquid.size() && liquid[region])
+      region = is_parted[region] ? kPartedRegion : kLiquidRegion;
 }
 
 RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window, double min_area) {
   RegionLayout layout;
-  std::vector<bool> seen(labels.regions.size(), false);
+  constexpr RegionId kNone = 0xfffd;
+  std::vector<RegionId> seen(labels.regions.size(), kNone);
   const double pixel_area = labels.pixel * labels.pixel;
   for (std::size_t i = 0; i < labels.regions.size(); ++i) {
-    if (seen[i]) continue;
+    if (seen[i] == labels.regions[i]) continue;
     const std::size_t pixels = walk(labels, window, i, seen);
     if (pixels > 0 && static_cast<double>(pixels) * pixel_area >= min_area)
       ++layout.pieces[labels.regions[i]];
@@ -94,7 +106,7 @@ LayoutChange compare_layouts(const RegionLayout& before, const RegionLayout& aft
                              const CompiledJoint& names, const std::vector<bool>& parted) {
   LayoutChange change;
   for (const auto& [region, n] : after.pieces) {
-    if (region < kFirstRegion || region == kLiquidRegion) continue;
+    if (region < kFirstRegion || region >= kPartedRegion) continue;
     const auto was = before.pieces.find(region);
     const int more = n - (was == before.pieces.end() ? 0 : was->second);
     if (more <= 0) continue;
@@ -103,7 +115,7 @@ LayoutChange compare_layouts(const RegionLayout& before, const RegionLayout& aft
         name_of(region, names) + ' ' + std::to_string(n - more) + " -> " + std::to_string(n));
   }
   for (const auto& [pair, length] : after.contacts) {
-    if (length < kTouch || may_touch(pair, parted)) continue;
+    if (length < kTouch || may_touch(pair, names, parted)) continue;
     const auto was = before.contacts.find(pair);
     if (was != before.contacts.end() && was->second >= kApart) continue;
     ++change.neighbours;

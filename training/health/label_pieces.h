@@ -10,11 +10,15 @@
 
 namespace artus {
 
-/// What all regions that hold liquid are named in a label picture when they are looked at as one.
+/// What regions that hold liquid are named in a label picture when they are looked at as one:
+/// spaces, and liquid that parts tissue.
 inline constexpr RegionId kLiquidRegion = 0xffff;
+inline constexpr RegionId kPartedRegion = 0xfffe;
 
-/// Gives the regions that hold liquid (by RegionId) one name: kLiquidRegion.
-void join_liquid(LabelImage& labels, const std::vector<bool>& liquid);
+/// Gives the regions that hold liquid (by RegionId) one name: kPartedRegion where it parts tissue
+/// (`is_parted` of all regions), else kLiquidRegion.
+void join_liquid(LabelImage& labels, const std::vector<bool>& liquid,
+                 const std::vector<bool>& is_parted);
 
 /// The pixels of a label picture that count, columns and rows; the rest is a margin, in which what
 /// looks like pieces may hang together.
@@ -27,7 +31,8 @@ struct LabelWindow {
 
 /// How the regions of a label picture lie.
 struct RegionLayout {
-  std::map<RegionId, int> pieces;  ///< that hang together, by edges of pixels
+  std::map<RegionId, int> pieces;  ///< that hang together, by edges of pixels; liquid that parts
+                                   ///< tissue between them counts as theirs
   std::map<std::pair<RegionId, RegionId>, double> contacts;  ///< m along which two touch; smaller
                                                              ///< id first
 };
@@ -45,8 +50,9 @@ struct LayoutChange {
   std::string which_neighbours;
 };
 
-/// `names`: of the regions after. `parted`: regions that liquid parts, which may touch it.
-/// kOutside, kBeyond and what is liquid has no fragments.
+/// `names`: of the regions after. `parted`: regions that liquid parts, which may touch it; such
+/// liquid may touch what lies beside them, too, but bone and skin. kOutside, kBeyond and what is
+/// liquid has no fragments.
 [[nodiscard]] LayoutChange compare_layouts(const RegionLayout& before, const RegionLayout& after,
                                            const CompiledJoint& names,
                                            const std::vector<bool>& parted);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/health/body_shape.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/soft/solver/soft_block.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {
@@ -17,7 +19,7 @@ const std::vector<FlatLayer> kLayers{{"skin", 2e-3}, {"muscle", 10e-3}, {"bone",
 TEST(BodyShape, ATetrahedronTurnedOverIsFoundWithItsRegionAndPlace) {
   const TetMesh rest = test::make_meshed_block(kLayers, 20e-3, 20e-3, 2.5e-3).mesh;
   const LeastRatio same = find_least_ratio(rest, rest);
-  EXPECT_EQ(same.inverted, 0U);
+  EXPECT_TRUE(same.inverted.empty());
   EXPECT_GT(same.compared, rest.tetrahedra.size() / 2);
   EXPECT_NEAR(same.ratio, 1, 1e-9);
 
@@ -26,10 +28,54 @@ TEST(BodyShape, ATetrahedronTurnedOverIsFoundWithItsRegionAndPlace) {
   const Vec3 face = (rest.vertices[tet[0]] + rest.vertices[tet[1]] + rest.vertices[tet[2]]) / 3;
   pushed.vertices[tet[3]] += 2.5 * (face - rest.vertices[tet[3]]);
   const LeastRatio turned = find_least_ratio(rest, pushed);
-  EXPECT_GT(turned.inverted, 0U);
+  EXPECT_FALSE(turned.inverted.empty());
   EXPECT_LT(turned.ratio, -1);
   EXPECT_GE(turned.region, kFirstRegion);
   EXPECT_LT((turned.p_J - rest.vertices[tet[3]]).norm(), 6e-3);
+}
+
+/// Tetrahedra of 6 mm that lie askew in a cage of 3 mm.
+struct AskewBlock {
+  AskewBlock() {
+    CompiledJoint askew = test::make_meshed_block(kThick, 36e-3, 36e-3, 6e-3);
+    const Vec3 middle(0, 0, 12e-3);
+    const Eigen::AngleAxisd turn(0.6, Vec3(1, 1, 0.3).normalized());
+    for (Vec3& p : askew.mesh.vertices) p = middle + turn * (p - middle);
+    joint = std::make_shared<const CompiledJoint>(std::move(askew));
+    SoftBlock block;
+    block.half_x = block.half_y = 48e-3;
+    block.layers = {{24e-3, linear_material(10e3, 0.47)}};
+    map = make_body_map(*joint, Pose::Identity(), make_block_model(block, 3e-3, {}));
+  }
+
+  /// Inverted tetrahedra, and those whose tissue is, where a node at p moves by `u(p)` along z.
+  template <class U>
+  [[nodiscard]] std::array<std::size_t, 2> count(U u) const {
+    std::vector<Vec3> nodes;
+    for (const Vec3& p : map->model->cage().nodes()) nodes.emplace_back(0, 0, u(p));
+    const DeformedBody body(joint, map, nodes, ContactForce{});
+    const LeastRatio least = find_least_ratio(joint->mesh, body.moved_joint().mesh);
+    std::size_t tissue = 0;
+    for (const std::size_t i : least.inverted) tissue += is_tissue_inverted(body, i) ? 1 : 0;
+    return {least.inverted.size(), tissue};
+  }
+
+  const std::vector<FlatLayer> kThick{{"skin", 6e-3}, {"muscle", 18e-3}};
+  std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const BodyMap> map;
+};
+
+TEST(BodyShape, CornersThatChangeSidesAreNoFoldOfTheTissueBetweenThem) {
+  const AskewBlock block;
+  // Columns slide along each other: no volume changes anywhere, whatever corners far apart do.
+  const auto slid =
+      block.count([](const Vec3& p) { return std::lround(p.x() / 3e-3) % 2 == 0 ? 0.0 : 6e-3; });
+  EXPECT_GT(slid[0], 0U);
+  EXPECT_EQ(slid[1], 0U);
+  const auto folded =
+      block.count([](const Vec3& p) { return -1.5 * std::max(0.0, p.z() - 12e-3); });
+  EXPECT_GT(folded[0], 0U);
+  EXPECT_EQ(folded[1], folded[0]);
 }
 
 TEST(BodyShape, BodiesOfOtherTetrahedraAreNotCompared) {

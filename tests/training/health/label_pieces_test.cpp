@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/health/label_pieces.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace artus {
@@ -33,17 +35,21 @@ void fill(LabelImage& labels, const LabelWindow& box, RegionId region) {
 
 CompiledJoint names() {
   CompiledJoint joint;
+  joint.tissues.resize(2);
+  joint.tissues[1].haptic.hard = true;
   for (const char* name : {"outside", "beyond", "fat", "muscle", "bursa", "bone", "injected"})
-    joint.regions.push_back({name, 0, Vec3::Zero(), {}});
+    joint.regions.push_back(
+        {name, static_cast<TissueId>(name == std::string("bone") ? 1 : 0), Vec3::Zero(), {}});
   return joint;
 }
 
 const std::vector<bool> kLiquid{false, false, false, false, true, false, true};
+const std::vector<bool> kInjected{false, false, false, false, false, false, true};
 
 LayoutChange change_to(LabelImage after, const std::vector<bool>& parted = {}) {
   LabelImage before = flat_labels();
-  join_liquid(before, kLiquid);
-  join_liquid(after, kLiquid);
+  join_liquid(before, kLiquid, kInjected);
+  join_liquid(after, kLiquid, kInjected);
   const LabelWindow window{0, kWide, 0, kHigh};
   return compare_layouts(find_layout(before, window, 1e-6), find_layout(after, window, 1e-6),
                          names(), parted);
@@ -84,13 +90,25 @@ TEST(LabelPieces, ASlabOfMuscleInFatAndBoneInMuscleAreWhereTheyWereNot) {
   EXPECT_EQ(change.which_neighbours, "muscle at bone");
 }
 
-TEST(LabelPieces, LiquidThatPartsAMuscleMayTouchItAlone) {
+TEST(LabelPieces, LiquidThatPartsTissueMayTouchItAndWhatIsBesideItButNotBone) {
+  const std::vector<bool> muscle{false, false, false, true};
   LabelImage parted = flat_labels();
-  fill(parted, {30, 60, 20, 30}, 6);
-  EXPECT_EQ(change_to(parted, {false, false, false, true}).neighbours, 0);
+  fill(parted, {30, 60, 10, 30}, 6);
+  EXPECT_EQ(change_to(parted, muscle).neighbours, 0);
   LabelImage through = parted;
-  fill(through, {30, 60, 10, 20}, 6);
-  EXPECT_EQ(change_to(through, {false, false, false, true}).neighbours, 1);
+  fill(through, {30, 60, 30, 50}, 6);
+  const LayoutChange change = change_to(through, muscle);
+  EXPECT_EQ(change.neighbours, 1);
+  EXPECT_EQ(change.which_neighbours, "bone at liquid");
+}
+
+TEST(LabelPieces, WhatLiquidPartsIsOneStructureStillWhatASpaceCutsIsNot) {
+  LabelImage parted = flat_labels();
+  fill(parted, {40, 60, 15, 40}, 6);
+  EXPECT_EQ(change_to(parted, {false, false, false, true}).fragments, 0);
+  LabelImage astray = parted;
+  fill(astray, {5, 20, 2, 10}, kMuscle);  // a piece in the fat that no liquid joins to the rest
+  EXPECT_EQ(change_to(astray, {false, false, false, true}).which_fragments, "muscle 1 -> 2");
 }
 
 TEST(LabelPieces, WhatHangsTogetherBesideTheWindowIsOnePiece) {
