@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -90,9 +89,8 @@ std::string describe_tiny(const SurfaceMesh& mesh, const SurfaceFile& file) {
 }
 
 ExitCode check_surface(const CheckOptions& options) {
-  const std::map<std::string, double> units{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}};
   SurfaceFile file;
-  file.unit = units.at(options.units.value_or("mm"));
+  file.unit = length_unit(options.units.value_or("mm"));
   file.has_own_unit = options.units.has_value();
   file.thicken = options.thicken_mm * kMillimetre;
   const auto mesh = read_surface(options.path, file.unit);

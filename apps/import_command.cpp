@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/import/import_files.h"
+#include "artus/detail/anatomy/import/known_joint.h"
 #include "artus/detail/apps/commands.h"
+#include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/import_page.h"
@@ -18,6 +20,7 @@ struct ImportCommandOptions {
   std::filesystem::path out;
   std::filesystem::path labels;
   std::filesystem::path image;
+  std::string as;
   std::string name;
   std::string side;
   std::string units = "mm";
@@ -33,8 +36,7 @@ Result<ImportOptions> read_options(const ImportCommandOptions& options) {
   out.side = options.side;
   out.between = options.between;
   out.threshold = options.threshold;
-  const std::map<std::string, double> units{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}};
-  out.surface_unit = units.at(options.units);
+  out.surface_unit = length_unit(options.units);
   if (!options.labels.empty()) {
     auto names = read_structure_names(options.labels);
     ARTUS_TRY(names);
@@ -101,8 +103,45 @@ void print(const ImportedJoint& joint, const std::filesystem::path& out) {
               out.c_str(), joint.name.c_str());
 }
 
+/// --as: the joint.toml is there, and what the files are called is known.
+Result<void> import_known(const ImportCommandOptions& options, const Progress& progress) {
+  const auto joint = read_known_joint(find_joint(options.as));
+  ARTUS_TRY(joint);
+  const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
+  const auto found = find_known_joint(*joint, files, length_unit(options.units), progress);
+  ARTUS_TRY(found);
+  if (progress) progress("writing", 0.95);
+  ARTUS_TRY(write_known_joint(*joint, *found, options.out, options.replace));
+  if (progress) progress("done", 1);
+  if (options.json) {
+    nlohmann::json json{{"folder", options.out.string()},
+                        {"notes", found->notes},
+                        {"credits", joint->credits},
+                        {"surfaces", nlohmann::json::array()}};
+    for (const FoundSurface& s : found->surfaces)
+      json["surfaces"].push_back({{"file", s.file},
+                                  {"source", s.source},
+                                  {"by", s.by},
+                                  {"triangles", s.mesh.triangles.size()}});
+    std::cout << json.dump(2) << '\n';
+    return {};
+  }
+  for (const FoundSurface& s : found->surfaces)
+    std::printf("%-44s %-28s %s\n", s.file.c_str(), s.by.c_str(), s.source.c_str());
+  for (const auto& text : found->notes) std::printf("! %s\n", text.c_str());
+  std::printf("%s: %zu surfaces; then: artus compile %s -o %s.artus\n",
+              (options.out / "joint.toml").c_str(), found->surfaces.size(), options.out.c_str(),
+              options.out.filename().c_str());
+  for (const auto& line : joint->credits) std::printf("%s\n", line.c_str());
+  return {};
+}
+
 ExitCode run_import(const ImportCommandOptions& options) {
   const Progress progress = make_progress_printer(options.json);
+  if (!options.as.empty()) {
+    const auto done = import_known(options, progress);
+    return done ? ExitCode::ok : report_error(done.error(), options.json);
+  }
   const auto given = read_options(options);
   if (!given) return report_error(given.error(), options.json);
   const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
@@ -135,10 +174,14 @@ void add_import_command(Command& app, ExitCode& code) {
       "  artus import knee.seg.nrrd -o knee\n"
       "  artus import labels.nii.gz --labels names.toml --image scan.nii.gz -o knee\n"
       "  artus import segmentations/*.nii.gz --between humerus_left scapula_left -o shoulder\n"
-      "  artus import atlas.glb -o shoulder");
+      "  artus import atlas.glb -o shoulder\n"
+      "  artus import --as real-shoulder bodyparts3d/ z-anatomy/ -o real");
   command->add_option("files", options->files, "segmentation, masks, scene or surfaces")
       ->required();
   command->add_option("-o,--out", options->out, "folder to write")->required();
+  command->add_option("--as", options->as,
+                      "joint whose joint.toml is there and whose surfaces are an atlas's: those "
+                      "that it needs are found in files or folders of that atlas as they come");
   command->add_option("--labels", options->labels,
                       "names and tissues of labels: TOML, or a colour table of 3D Slicer or "
                       "ITK-SNAP");

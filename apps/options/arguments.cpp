@@ -5,6 +5,7 @@
 #include <locale>
 #include <sstream>
 
+#include "artus/detail/core/check.h"
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -89,6 +90,11 @@ Result<Pose> parse_needle_pose(std::string_view text, const std::string& flag) {
   const auto line = parse_entry_and_tip(text, flag);
   ARTUS_TRY(line);
   return make_pose(line->end, line->end - line->start, Vec3::Zero());
+}
+
+double length_unit(std::string_view name) {
+  ARTUS_REQUIRE(name == "mm" || name == "cm" || name == "m", "a flag's check lets these pass");
+  return name == "mm" ? kMillimetre : name == "cm" ? 1e-2 : 1;
 }
 
 }  // namespace artus

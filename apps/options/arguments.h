@@ -23,6 +23,9 @@ namespace artus {
 /// coincide.
 [[nodiscard]] Result<Pose> parse_needle_pose(std::string_view text, const std::string& flag);
 
+/// m of "mm", "cm" or "m". Requires: one of them.
+[[nodiscard]] double length_unit(std::string_view name);
+
 /// Entry and tip of "ex,ey,ez/tx,ty,tz", metres. Errors: as parse_needle_pose.
 [[nodiscard]] Result<Segment> parse_entry_and_tip(std::string_view text, const std::string& flag);
 

@@ -60,5 +60,11 @@ TEST(Arguments, ANeedlePointsFromEntryToTip) {
   EXPECT_FALSE(parse_needle_pose("1,1,1/1,1,1", "--needle").has_value());
 }
 
+TEST(Arguments, LengthUnitsAreInMetres) {
+  EXPECT_DOUBLE_EQ(length_unit("mm"), 1e-3);
+  EXPECT_DOUBLE_EQ(length_unit("cm"), 1e-2);
+  EXPECT_DOUBLE_EQ(length_unit("m"), 1);
+}
+
 }  // namespace
 }  // namespace artus
