@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <clocale>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +9,9 @@
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/hands_command.h"
 #include "artus/detail/apps/options/old_names.h"
+#include "artus/detail/apps/options/program.h"
 #include "artus/detail/apps/validate_command.h"
 #include "artus/detail/core/known_names.h"
-#include "artus/detail/core/plain_reason.h"
 
 namespace {
 
@@ -26,14 +24,14 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
   return std::move(renamed->arguments);
 }
 
-int run(const std::vector<std::string>& arguments) {
+artus::ExitCode run(const std::vector<std::string>& arguments) {
   using artus::ExitCode;
   if (!arguments.empty() && arguments.front() == "validate")
-    return static_cast<int>(artus::run_validation({arguments.begin() + 1, arguments.end()}));
+    return artus::run_validation({arguments.begin() + 1, arguments.end()});
   if (!arguments.empty() && arguments.front() == "bridge")
-    return static_cast<int>(artus::run_bridge({arguments.begin() + 1, arguments.end()}));
+    return artus::run_bridge({arguments.begin() + 1, arguments.end()});
   if (!arguments.empty() && arguments.front() == "hands")
-    return static_cast<int>(artus::run_hands({arguments.begin() + 1, arguments.end()}));
+    return artus::run_hands({arguments.begin() + 1, arguments.end()});
   artus::Command app(
       "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
       "Not a medical device.");
@@ -54,26 +52,15 @@ int run(const std::vector<std::string>& arguments) {
       std::find(names.begin(), names.end(), arguments.front()) == names.end()) {
     std::fprintf(stderr, "artus: there is no command '%s'%s; artus --help lists them\n",
                  arguments.front().c_str(), artus::did_you_mean(arguments.front(), names).c_str());
-    return static_cast<int>(ExitCode::usage);
+    return ExitCode::usage;
   }
   std::vector<const char*> line{"artus"};
   for (const std::string& argument : arguments) line.push_back(argument.c_str());
-  int mistake = 0;  // CLI11's own many codes become one
-  if (!app.parse(static_cast<int>(line.size()), line.data(), mistake))
-    return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  return static_cast<int>(code);
+  return artus::run_commands(app, static_cast<int>(line.size()), line.data(), code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::setlocale(LC_ALL, "C");
-  try {
-    return run(arguments_of(argc, argv));
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "artus: %s\n", artus::plain_reason(e.what()).c_str());
-  } catch (...) {
-    std::fprintf(stderr, "artus: an unknown failure stopped the program\n");
-  }
-  return 1;
+  return artus::run_program([&] { return run(arguments_of(argc, argv)); });
 }

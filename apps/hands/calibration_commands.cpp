@@ -120,10 +120,7 @@ void add_calibration_commands(Command& app, ExitCode& code) {
   command->add_option("--hand", camera->hand, "that holds the syringe")
       ->one_of({"right", "left"})
       ->capture_default_str();
-  on_run(command, code, [camera] {
-    const auto done = calibrate(*camera);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [camera] { return calibrate(*camera); });
 
   auto markers = std::make_shared<PictureOptions>();
   command = add_command(app, "markers", "Where the markers were glued, by turning each body",
@@ -133,10 +130,7 @@ void add_calibration_commands(Command& app, ExitCode& code) {
                         "  artus hands markers webcam -k hands.toml\n"
                         "  artus hands markers probe.mp4 syringe.mp4 -k hands.toml");
   add_picture_options(command, *markers, "webcam, or two files: probe, syringe");
-  on_run(command, code, [markers] {
-    const auto done = fit_glued(*markers);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [markers] { return fit_glued(*markers); });
 
   auto file = std::make_shared<std::filesystem::path>();
   command = add_command(app, "state", "What of a kit was measured, in one line",

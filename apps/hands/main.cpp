@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <clocale>
-#include <cstdio>
-#include <exception>
-
 #include <opencv2/core.hpp>
 
 #include "artus/detail/apps/hands/hands_commands.h"
+#include "artus/detail/apps/options/program.h"
 
 int main(int argc, char** argv) {
-  std::setlocale(LC_ALL, "C");
-  try {
+  return artus::run_program([&] {
     cv::setNumThreads(1);  // the session beside it needs the processor, too
     artus::ExitCode code = artus::ExitCode::ok;
     artus::Command app(
@@ -27,14 +23,6 @@ int main(int argc, char** argv) {
     artus::add_calibration_commands(app, code);
     artus::add_tip_commands(app, code);
     artus::add_tracking_commands(app, code);
-    int mistake = 0;  // CLI11's own many codes become one
-    if (!app.parse(argc, argv, mistake))
-      return mistake == 0 ? 0 : static_cast<int>(artus::ExitCode::usage);
-    return static_cast<int>(code);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "artus: %s\n", e.what());
-  } catch (...) {
-    std::fprintf(stderr, "artus: an unknown failure stopped the program\n");
-  }
-  return 1;
+    return artus::run_commands(app, argc, argv, code);
+  });
 }

@@ -131,10 +131,7 @@ void add_tip_commands(Command& app, ExitCode& code) {
       "  artus hands pivot webcam -k hands.toml\n"
       "  artus hands pivot lean.mp4 one.mp4 other.mp4 roll.mp4 -k hands.toml");
   add_picture_options(command, *cone, "webcam, or four files, one for each phase");
-  on_run(command, code, [cone] {
-    const auto done = pivot(*cone);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [cone] { return pivot(*cone); });
 
   auto touch = std::make_shared<PictureOptions>();
   command = add_command(app, "face", "The probe's face, by touching its marks with the needle",
@@ -143,10 +140,7 @@ void add_tip_commands(Command& app, ExitCode& code) {
                         "  artus hands face webcam -k hands.toml\n"
                         "  artus hands face left.mp4 middle.mp4 right.mp4 -k hands.toml");
   add_picture_options(command, *touch, "webcam, or three files, one for each phase");
-  on_run(command, code, [touch] {
-    const auto done = face(*touch);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [touch] { return face(*touch); });
 }
 
 }  // namespace artus

@@ -12,7 +12,7 @@
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/devices/kit/marker_dictionary.h"
+#include "artus/detail/devices/kit/picture_check.h"
 #include "artus/detail/devices/kit/pose_sender.h"
 #include "artus/detail/devices/kit/tracker.h"
 
@@ -29,54 +29,6 @@ struct TrackOptions {
 double realtime_now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
-
-/// Turns pictures round that a camera mirrors: no marker is found in a mirrored one.
-class Mirror {
- public:
-  [[nodiscard]] cv::Mat right(const cv::Mat& grey) {
-    cv::Mat flipped;
-    if (mirrored_) {
-      cv::flip(grey, flipped, 1);
-      return flipped;
-    }
-    if (settled_) return grey;
-    constexpr int kPatience = 30;  // pictures without a marker
-    if (!kit::find_markers(grey).empty()) {
-      settled_ = true;
-    } else if (++empty_ % kPatience == 0) {
-      cv::flip(grey, flipped, 1);
-      mirrored_ = kit::find_markers(flipped).size() >= 3;
-      if (mirrored_) {
-        tell("note: the camera mirrors its picture; it is turned round here, better switch it off");
-        return flipped;
-      }
-    }
-    return grey;
-  }
-
- private:
-  bool settled_ = false;
-  bool mirrored_ = false;
-  int empty_ = 0;
-};
-
-/// A camera that hangs repeats its last picture, which no sensor gives twice: no pose may be made
-/// of it.
-class Frozen {
- public:
-  [[nodiscard]] bool is(const cv::Mat& grey) {
-    constexpr int kSame = 3;  // pictures in a row
-    const bool same = last_.size() == grey.size() && cv::norm(last_, grey, cv::NORM_INF) == 0;
-    last_ = grey;
-    same_ = same ? same_ + 1 : 0;
-    if (same_ == kSame) tell("note: the camera repeats one picture: it hangs, or is paused");
-    return same_ >= kSame;
-  }
-
- private:
-  cv::Mat last_;
-  int same_ = 0;
-};
 
 /// A line a second: what is seen, how sure it is, how late it comes.
 class Status {
@@ -135,8 +87,9 @@ Result<void> run_hands(const TrackOptions& options) {
                 "--igtl connect:127.0.0.1:%d",
                 sender->port(), sender->port()));
   kit::Tracker tracker(measured->kit);
-  Mirror mirror;
-  Frozen frozen;
+  kit::MirrorCheck mirror;
+  kit::FrozenCheck frozen;
+  kit::PictureNotes notes;
   Status status;
   double last = 0;
   for (;;) {
@@ -147,8 +100,12 @@ Result<void> run_hands(const TrackOptions& options) {
     if (!((*picture)->time > last))
       tracker = kit::Tracker(measured->kit);  // the clock was set back
     last = (*picture)->time;
-    if ((*source)->is_live() && frozen.is((*picture)->grey)) continue;
-    const kit::HandsFrame frame = tracker.take(mirror.right((*picture)->grey), last);
+    const cv::Mat grey = mirror.right((*picture)->grey);
+    const bool hangs = (*source)->is_live() && frozen.is((*picture)->grey);
+    if (const std::string note = notes.take(mirror.is_mirrored(), hangs); !note.empty())
+      tell("note: " + note);
+    if (hangs) continue;
+    const kit::HandsFrame frame = tracker.take(grey, last);
     sender->send(frame, measured->kit.block_height);
     status.take(frame, realtime_now() - frame.time, (*source)->is_live(), sender->peers());
     for (const std::string& notice : sender->take_notices()) tell("note: " + notice);
@@ -183,7 +140,7 @@ Result<void> track(const TrackOptions& options) {
     return fail(ErrorCode::invalid, "a video or a folder of pictures: a webcam has no end",
                 "source");
   kit::Tracker tracker(measured->kit);
-  Mirror mirror;
+  kit::MirrorCheck mirror;
   std::string out =
       "time_s,needle_x_mm,needle_y_mm,needle_z_mm,needle_qw,needle_qx,needle_qy,needle_qz,"
       "probe_x_mm,probe_y_mm,probe_z_mm,probe_qw,probe_qx,probe_qy,probe_qz\n";
@@ -205,6 +162,7 @@ Result<void> track(const TrackOptions& options) {
   ARTUS_TRY(write_text(options.out, out));
   std::sort(errors.begin(), errors.end());
   const double middle = errors.empty() ? 0 : errors[errors.size() / 2];
+  if (mirror.is_mirrored()) tell("note: " + kit::PictureNotes().take(true, false));
   tell(printed("%d pictures, both hands in %zu of them, +- %.1f mm", n, errors.size(),
                middle / kMillimetre));
   return {};
@@ -224,10 +182,7 @@ void add_tracking_commands(Command& app, ExitCode& code) {
   add_picture_options(command, run->pictures, "webcam, webcam:NUMBER, a video or a folder");
   command->add_option("--igtl", run->listen, "[address:]port to listen on")->capture_default_str();
   command->add_option("--connect", run->connect, "HOST:PORT of a session that listens, instead");
-  on_run(command, code, [run] {
-    const auto done = run_hands(*run);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [run] { return run_hands(*run); });
 
   auto list = std::make_shared<TrackOptions>();
   command = add_command(app, "track", "Poses of a video or a folder as a table, for artus assess",
@@ -235,10 +190,7 @@ void add_tracking_commands(Command& app, ExitCode& code) {
                         "  artus hands track lesson.mp4 -k hands.toml -o poses.csv");
   add_picture_options(command, list->pictures, "a video or a folder of pictures");
   command->add_option("-o,--out", list->out, "table of poses (.csv)")->required();
-  on_run(command, code, [list] {
-    const auto done = track(*list);
-    return done ? ExitCode::ok : report_error(done.error(), false);
-  });
+  on_run(command, code, [list] { return track(*list); });
 }
 
 }  // namespace artus

@@ -30,6 +30,13 @@ void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body) {
   command->callback([&code, body = std::move(body)] { code = body(); });
 }
 
+void on_run(Command* command, ExitCode& code, std::function<Result<void>()> body) {
+  on_run(command, code, [body = std::move(body)] {
+    const auto done = body();
+    return done ? ExitCode::ok : report_error(done.error(), false);
+  });
+}
+
 ExitCode report_error(const Error& error, bool json) {
   if (json) {
     std::cout << nlohmann::json{{"error",

@@ -30,6 +30,8 @@ Command* add_command(Command& app, const std::string& name, const std::string& d
 
 /// Runs `body` when `command` was chosen and keeps its result in `code`.
 void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body);
+/// The same for a body that only fails or not, which is reported to people.
+void on_run(Command* command, ExitCode& code, std::function<Result<void>()> body);
 
 /// Prints an error for people on stderr, or as {"error": {...}} on stdout when `json`; returns
 /// ExitCode::failed (usage for a malformed flag, defects for what must be mended).

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -12,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/detail/apps/options/old_names.h"
+#include "artus/detail/apps/options/program.h"
 #include "tests/apps/run_tool.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,6 +27,35 @@ using testing::HasSubstr;
 using testing::Not;
 
 using Commands = test::TemporaryFolder;
+
+TEST(Program, TellsAFailureThatNothingCaughtAndReturnsOne) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_program([]() -> ExitCode { throw std::runtime_error("no paper left"); }), 1);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "artus: no paper left\n");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_program([]() -> ExitCode { throw 7; }), 1);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("unknown failure"));
+  EXPECT_EQ(run_program([] { return ExitCode::defects; }), 3);
+}
+
+TEST(Program, ReturnsWhatTheCommandDidOrThatTheLineIsWrong) {
+  const auto run = [](std::vector<const char*> line) {
+    ExitCode code = ExitCode::ok;
+    Command app("a program");
+    Command* fails = add_command(app, "fails", "fails", "");
+    on_run(fails, code, []() -> Result<void> { return fail(ErrorCode::not_found, "gone"); });
+    Command* works = add_command(app, "works", "works", "");
+    on_run(works, code, []() -> Result<void> { return {}; });
+    line.insert(line.begin(), "program");
+    testing::internal::CaptureStderr();
+    code = run_commands(app, static_cast<int>(line.size()), line.data(), code);
+    return std::pair(code, testing::internal::GetCapturedStderr());
+  };
+  EXPECT_EQ(run({"works"}).first, ExitCode::ok);
+  EXPECT_EQ(run({"fails"}).first, ExitCode::failed);
+  EXPECT_THAT(run({"fails"}).second, HasSubstr("gone"));
+  EXPECT_EQ(run({"works", "--faster"}).first, ExitCode::usage);
+}
 
 /// A command that --help lists, "check" or "image labels", and what its own --help gives.
 struct Listed {
