@@ -8,8 +8,7 @@
 namespace artus {
 namespace {
 
-constexpr double kWallFilter = 0.03;   // of the limit: slower echoes count as tissue. assumed
-constexpr float kThreshold = 5.6e-3F;  // -45 dB: echoes above show in colour. assumed
+constexpr double kWallFilter = 0.03;  // of the limit: slower echoes count as tissue. assumed
 
 }  // namespace
 
@@ -25,7 +24,7 @@ void detect_motion(std::span<const float> re, std::span<const float> im,
   const auto shown = static_cast<float>(wrapped);
   for (std::size_t i = 0; i < found.velocity.size(); ++i) {
     const float power = (re[i] * re[i] + im[i] * im[i]) * time_gain[i] * time_gain[i];
-    const bool moves = passes && power > kThreshold * kThreshold;
+    const bool moves = passes && power > kColourThreshold * kColourThreshold;
     found.velocity[i] = moves ? shown : std::numeric_limits<float>::quiet_NaN();
     found.power_db[i] = moves ? 10 * std::log10(power) : 0;
   }

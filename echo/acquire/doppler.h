@@ -4,6 +4,9 @@
 
 namespace artus {
 
+/// -45 dB: echoes above this show in colour. assumed
+inline constexpr float kColourThreshold = 5.6e-3F;
+
 /// What moves on one scanline, see Frame::velocity and Frame::motion_db.
 struct MotionSpan {
   std::span<float> velocity;

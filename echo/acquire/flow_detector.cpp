@@ -11,10 +11,9 @@
 namespace artus {
 namespace {
 
-constexpr double kLongest = 0.5;         // s; frames further apart tell of no motion
-constexpr float kHeard = 1.6e-4F;        // -76 dB after time gain, a packet's worth. assumed
-constexpr float kTissueHeard = 5.6e-3F;  // -45 dB, as detect_motion. assumed
-constexpr double kPacket = 0.4e-3;       // m of depth that one estimate takes. assumed
+constexpr double kLongest = 0.5;    // s; frames further apart tell of no motion
+constexpr float kHeard = 1.6e-4F;   // -76 dB after time gain, a packet's worth. assumed
+constexpr double kPacket = 0.4e-3;  // m of depth that one estimate takes. assumed
 
 /// Where what lies at `sample` of a run was at rest, m.
 Vec3 rest_at(const BeamTrace& trace, const BeamRun& run, double sample) noexcept {
@@ -200,7 +199,7 @@ void FlowDetector::colour_line(int l, std::span<const float> time_gain, Frame& f
     } else if (toward[node] != 0) {
       const double echo =
           frame.in_phase[i] * frame.in_phase[i] + frame.quadrature[i] * frame.quadrature[i];
-      if (echo * tg2 > static_cast<double>(kTissueHeard) * kTissueHeard) power = echo * tg2;
+      if (echo * tg2 > static_cast<double>(kColourThreshold) * kColourThreshold) power = echo * tg2;
     }
     if (power <= 0) continue;
     const double wrapped = wrap_velocity(velocity, limit_);

@@ -166,7 +166,13 @@ void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
 /// A bed around one whose brightness wanders over coarse and fine features.
 std::vector<float> make_bed(const Recipe& recipe, std::uint64_t seed,
                             const std::array<int, 3>& sides) {
+  if (!(recipe.bed > 0))
+    return std::vector<float>(static_cast<std::size_t>(sides[0]) *
+                                  static_cast<std::size_t>(sides[1]) *
+                                  static_cast<std::size_t>(sides[2]),
+                              1.0F);
   std::vector<float> tile;
+  const auto bed = static_cast<float>(recipe.bed);
   const std::array<int, 3>& feature = recipe.coarse.feature;
   const ValueNoise slow(seed + 2, recipe, sides, {4 * feature[0], 2 * feature[1], feature[2]});
   const ValueNoise coarse(seed, recipe, sides, feature);
@@ -175,10 +181,9 @@ std::vector<float> make_bed(const Recipe& recipe, std::uint64_t seed,
   for (int z = 0; z < sides[2]; ++z)
     for (int y = 0; y < sides[1]; ++y) {
       row.assign(static_cast<std::size_t>(sides[0]) + 1, 0.0F);
-      const auto bed = static_cast<float>(recipe.bed);
-      if (bed > 0) slow.add_row(y, z, 0.4F * bed, row);
-      if (bed > 0) coarse.add_row(y, z, 0.5F * bed, row);
-      if (bed > 0) fine.add_row(y, z, 0.4F * bed, row);
+      slow.add_row(y, z, 0.4F * bed, row);
+      coarse.add_row(y, z, 0.5F * bed, row);
+      fine.add_row(y, z, 0.4F * bed, row);
       for (int x = 0; x < sides[0]; ++x) tile.push_back(std::exp(row[static_cast<std::size_t>(x)]));
     }
   return tile;
