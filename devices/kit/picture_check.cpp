@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/devices/kit/picture_check.h"
+
+#include <opencv2/core.hpp>
+
+#include "artus/detail/devices/kit/marker_dictionary.h"
+
+namespace artus::kit {
+
+cv::Mat MirrorCheck::right(const cv::Mat& grey) {
+  cv::Mat flipped;
+  if (mirrored_) {
+    cv::flip(grey, flipped, 1);
+    return flipped;
+  }
+  if (settled_) return grey;
+  constexpr int kPatience = 30;        // pictures without a marker
+  constexpr std::size_t kMarkers = 3;  // that are no accident
+  if (!find_markers(grey).empty()) {
+    settled_ = true;
+  } else if (++empty_ % kPatience == 0) {
+    cv::flip(grey, flipped, 1);
+    mirrored_ = find_markers(flipped).size() >= kMarkers;
+    if (mirrored_) return flipped;
+  }
+  return grey;
+}
+
+bool FrozenCheck::is(const cv::Mat& grey) {
+  constexpr int kSame = 3;  // repetitions in a row
+  const bool same = last_.size() == grey.size() && cv::norm(last_, grey, cv::NORM_INF) == 0;
+  last_ = grey.clone();
+  same_ = same ? same_ + 1 : 0;
+  return same_ >= kSame;
+}
+
+std::string PictureNotes::take(bool is_mirrored, bool is_frozen) {
+  std::string note;
+  if (is_mirrored && !mirrored_)
+    note = "the camera mirrors its picture; it is turned round here, better switch it off";
+  if (is_frozen && !frozen_) note = "the camera repeats one picture: it hangs, or is paused";
+  mirrored_ = is_mirrored;
+  frozen_ = is_frozen;
+  return note;
+}
+
+}  // namespace artus::kit
