@@ -16,14 +16,14 @@ cv::Mat MirrorCheck::right(const cv::Mat& grey) {
   if (settled_) return grey;
   constexpr int kPatience = 30;        // pictures without a marker
   constexpr std::size_t kMarkers = 3;  // that are no accident
-  if (!find_markers(grey).empty()) {
-    settled_ = true;
-  } else if (++empty_ % kPatience == 0) {
-    cv::flip(grey, flipped, 1);
-    mirrored_ = find_markers(flipped).size() >= kMarkers;
-    if (mirrored_) return flipped;
-  }
-  return grey;
+  const std::size_t upright = find_markers(grey).size();
+  if (upright == 0 && ++empty_ % kPatience != 0) return grey;
+  // Some markers pass for others when they are mirrored: the way round that shows more is right.
+  cv::flip(grey, flipped, 1);
+  const std::size_t turned = find_markers(flipped).size();
+  settled_ = upright >= kMarkers && upright > 2 * turned;
+  mirrored_ = turned >= kMarkers && turned > 2 * upright;
+  return mirrored_ ? flipped : grey;
 }
 
 bool FrozenCheck::is(const cv::Mat& grey) {

@@ -6,11 +6,12 @@
 
 namespace artus::kit {
 
-/// Turns pictures round that a camera mirrors: no marker is found in a mirrored one.
+/// Turns pictures round that a camera mirrors, in which few markers are found, and those for
+/// others.
 class MirrorCheck {
  public:
-  /// The picture to look at. Cost: until markers were seen once, a search every picture, and every
-  /// 30th one more of it turned round; then a flip or nothing.
+  /// The picture to look at. Cost: until it is known, a search or two a picture; then a flip or
+  /// nothing.
   [[nodiscard]] cv::Mat right(const cv::Mat& grey);
   [[nodiscard]] bool is_mirrored() const noexcept { return mirrored_; }
 
