@@ -24,15 +24,16 @@ class ShownTips {
         pictures_.emplace_back(frame.input.sample_time_ns, static_cast<double>(frame.tip_contrast));
   }
 
-  /// dB in the last picture before a moment; 0 where there was none within a quarter second.
-  [[nodiscard]] double at(std::int64_t time_ns) const {
+  /// dB in the last picture before a moment; empty where there was none within a quarter second.
+  [[nodiscard]] std::optional<double> at(std::int64_t time_ns) const {
     constexpr std::int64_t kLately = 250'000'000;  // ns
     const auto after = std::upper_bound(
         pictures_.begin(), pictures_.end(), time_ns,
         [](std::int64_t time, const auto& picture) { return time < picture.first; });
-    if (after == pictures_.begin() || time_ns - std::prev(after)->first > kLately) return 0;
+    if (after == pictures_.begin() || time_ns - std::prev(after)->first > kLately)
+      return std::nullopt;
     const double contrast = std::prev(after)->second;
-    return std::isnan(contrast) ? 0 : contrast;
+    return std::isnan(contrast) ? kNotShown : contrast;
   }
 
  private:
@@ -42,9 +43,10 @@ class ShownTips {
 /// What the truth says of the tip: where it is, and why it is seen or not. `shown`: dB by which it
 /// stood out in the picture.
 std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
-                   double shown, Language language) {
+                   std::optional<double> shown, Language language) {
   if (state.inserted == 0) return translate(language, "The needle is not in the body here");
-  const TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
+  TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
+  sight.shown_db = shown;
   const auto mm = [&](double length) {
     return number(language, length / kMillimetre, 1);
   };
@@ -54,10 +56,11 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
                 "The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm "
                 "thick to either side there"),
       {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
-  if (shown >= kVisibleContrast) return where + ". " + translate(language, "It can be seen.");
+  if (sight.seen()) return where + ". " + translate(language, "It can be seen.");
   switch (sight.loss) {
     case SightLoss::none:
-      return where + ". " + translate(language, "It can be seen.");
+      return where + ". " +
+             translate(language, "It cannot be seen: what lies around it is as bright.");
     case SightLoss::no_contact:
       return where + ". " +
              translate(language, "It cannot be seen: the probe does not touch there.");

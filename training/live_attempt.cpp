@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "artus/detail/echo/display/tip_contrast.h"
+#include "artus/detail/session/record/needle_contrast.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -29,7 +29,9 @@ void LiveAttempt::on_tick(const HapticSnapshot& tick) noexcept {
 
 void LiveAttempt::on_frame(const FrameInput& input, const Frame& frame) {
   std::optional<ImageSight> sight;
-  if (input.has_needle != 0) sight = sight_of(tip_contrast(frame, meter_.options().transducer));
+  if (input.has_needle != 0)
+    sight = sight_of(needle_contrast(input, frame, meter_.options().transducer));
+  if (sight) shown_.store(sight->contrast_db.value_or(kNotShown), std::memory_order_relaxed);
   waiting_.push_back({input.sample_time_ns, sight, input.controls.motion != MotionShown::none});
   place_sights(false);
 }
@@ -49,6 +51,11 @@ void LiveAttempt::place_sights(bool over) {
     meter_.add_sight(*picture.sight);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(placed));
+}
+
+std::optional<double> LiveAttempt::shown_db() const noexcept {
+  const double shown = shown_.load(std::memory_order_relaxed);
+  return std::isnan(shown) ? std::nullopt : std::optional(shown);
 }
 
 AttemptMeasures LiveAttempt::measure() {

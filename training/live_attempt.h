@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,6 +28,10 @@ class LiveAttempt final : public SessionObserver {
   [[nodiscard]] bool full() const noexcept { return full_.load(std::memory_order_relaxed); }
   [[nodiscard]] double longest() const noexcept { return meter_.options().longest; }  ///< s
 
+  /// dB by which the tip stood out in the last picture; empty: there was none of a needle. A tip of
+  /// which nothing showed stands out by kNotShown. Any thread.
+  [[nodiscard]] std::optional<double> shown_db() const noexcept;
+
   /// All numbers. Requires: the session is over. Cost: linear in ticks.
   [[nodiscard]] AttemptMeasures measure();
 
@@ -48,7 +53,9 @@ class LiveAttempt final : public SessionObserver {
   std::vector<Moment> moments_;  // below n_moments_ they do not change
   std::atomic<std::size_t> n_moments_{0};
   std::atomic<bool> full_{false};
-  std::atomic<double> last_{0};   // s, of the last tick
+  std::atomic<double> last_{0};  // s, of the last tick
+  // dB, of the last picture; not a number: none
+  std::atomic<double> shown_{std::numeric_limits<double>::quiet_NaN()};
   std::vector<Waiting> waiting_;  // the imaging thread's, until their tick is published
   std::size_t at_ = 0;            // moment of the last placed picture
 };

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "artus/detail/echo/display/tip_contrast.h"
+#include "artus/detail/session/record/needle_contrast.h"
 #include "artus/session/replay.h"
 
 namespace artus {
@@ -51,7 +51,7 @@ ImageSight sight_of(std::optional<double> contrast_db) {
 void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time) {
   if (input.controls.motion != MotionShown::none) meter.add_coloured(time);
   if (input.has_needle == 0) return;
-  ImageSight sight = sight_of(tip_contrast(frame, meter.options().transducer));
+  ImageSight sight = sight_of(needle_contrast(input, frame, meter.options().transducer));
   sight.time = time;
   meter.add_sight(sight);
 }

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "artus/detail/core/text_file.h"
-#include "artus/detail/echo/display/tip_contrast.h"
+#include "artus/detail/session/record/needle_contrast.h"
 
 namespace artus {
 namespace {
@@ -96,7 +96,7 @@ FrameRecord to_record(const FrameInput& input, const Frame& frame, const Transdu
   FrameRecord record;
   record.input = input;
   record.digest = digest_of(frame);
-  if (const auto contrast = tip_contrast(frame, transducer)) record.tip_contrast = *contrast;
+  if (const auto contrast = needle_contrast(input, frame, transducer)) record.tip_contrast = *contrast;
   return record;
 }
 

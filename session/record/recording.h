@@ -30,7 +30,7 @@ struct FrameRecord {
   FrameInput input;
   std::uint64_t digest = 0;
   std::uint64_t packet = 0;  ///< digest of what the tissue answered the hands with; 0: rigid
-  /// dB, tip_contrast of what came out; not a number: nothing of the tip shows.
+  /// dB, needle_contrast of what came out; not a number: nothing of the tip shows.
   double tip_contrast = std::numeric_limits<double>::quiet_NaN();
 };
 /// The picture of `input` as it is kept, without its packet. Requires: the session's transducer.

@@ -52,7 +52,7 @@ std::string cause_of(const AttemptView& view, const Run& run) {
     case SightLoss::off_sector:
       return "the tip was beside or below the picture";
     case SightLoss::none:
-      break;
+      return "what lay around the tip was as bright as it";
   }
   return "the tip was not seen";
 }

@@ -175,9 +175,10 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
             "its 90th percentile");
   sheet.put(
       "both", "tip_seen", "-", there ? Value(sum.time_seen / sum.time) : Value(),
-      "share of the time in tissue with the tip between the outermost lines, not shadowed, and "
-      "its echo 6 dB above muscle after what angle and distance to the plane take, or with the tip "
-      "6 dB above what is around it in the pictures of that moment");
+      "share of the time in tissue with the tip 4 dB above what is around it in the pictures of "
+      "that moment, where its echo is not 12 dB below muscle's; without pictures, with it between "
+      "the outermost lines, not shadowed, and its echo 6 dB above muscle after what angle and "
+      "distance to the plane take");
   double unseen = 0;
   for (const Run& run : sum.unseen) unseen += run.amount;
   sheet.put("both", "unseen_advances", "count",
@@ -395,7 +396,7 @@ void put_images(Sheet& sheet, const AttemptView& view) {
   }
   sheet.put("both", "tip_visible", "-", inside > 0 ? Value(visible / inside) : Value(),
             "share of the pictures in tissue in which the disc of 1.5 mm where the tip shows is "
-            "6 dB above the ring of 2 to 4 mm around it");
+            "4 dB above what is typical of the ring of 2 to 4 mm around it beside the shaft");
   sheet.put("both", "tip_contrast_median_db", "dB", percentile(contrast, 0.5),
             "that contrast's median");
 }

@@ -8,8 +8,10 @@ namespace artus {
 struct ImageSight {
   double time = 0;  ///< s
   bool visible = false;
-  std::optional<double> contrast_db;  ///< tip_contrast; empty where nothing of the tip shows
+  std::optional<double> contrast_db;  ///< needle_contrast; empty where nothing of the tip shows
 };
-inline constexpr double kVisibleContrast = 6;  ///< dB
+/// dB from which a tip is seen; assumed: 6, less what the dozen speckles at the tip waver by.
+inline constexpr double kVisibleContrast = 4;
+inline constexpr double kNotShown = -60;       ///< dB, of a tip of which nothing shows
 
 }  // namespace artus

@@ -22,14 +22,13 @@ std::vector<std::optional<TipSight>> look_along(const Scene& scene, const TipSig
 
 void look_at_pictures(std::span<const CoursePoint> course, std::span<const ImageSight> images,
                       std::span<std::optional<TipSight>> sights) {
-  constexpr double kNothing = -60;  // dB, of a tip that is not in the picture
   std::size_t first = 0;
   for (std::size_t i = 0; i < course.size(); ++i) {
     while (first < images.size() && images[first].time < course[i].time - kGlance) ++first;
     std::vector<double> contrasts;
     for (std::size_t k = first; k < images.size() && images[k].time <= course[i].time + kGlance;
          ++k)
-      contrasts.push_back(images[k].contrast_db.value_or(kNothing));
+      contrasts.push_back(images[k].contrast_db.value_or(kNotShown));
     if (sights[i]) sights[i]->shown_db = percentile(std::move(contrasts), 0.5);
   }
 }

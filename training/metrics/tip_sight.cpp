@@ -98,8 +98,9 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
   }
   const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
   const double aside_db = decibels(heard);
+  sight.tip_db = sight.contrast_db + aside_db;
   sight.in_picture = in_sector(tip);
-  const bool faint = sight.contrast_db + aside_db < kMinContrast;
+  const bool faint = sight.tip_db < kMinContrast;
   if (air > kMaxAir)
     sight.loss = SightLoss::no_contact;
   else if (faint && aside_db < -kMinContrast)

@@ -15,7 +15,7 @@ namespace artus {
 enum class SightLoss { none, no_contact, off_plane, off_sector, shadow, angle };
 [[nodiscard]] const char* to_string(SightLoss loss) noexcept;
 
-/// How a needle lies in the picture, from geometry alone but for `shown`.
+/// How a needle lies in the picture, from geometry alone but for `shown_db`.
 struct TipSight {
   SightLoss loss = SightLoss::none;
   double offset = 0;           ///< m, of the tip from the image plane, along +y of the probe
@@ -26,13 +26,16 @@ struct TipSight {
   double angle_db = 0;         ///< of that echo, lost to the angle beside a shaft that lies flat
   RegionId shadow = kOutside;  ///< the region that shadows the tip
   bool in_picture = false;     ///< the tip lies between the outermost lines, within the depth
+  double tip_db = 0;           ///< of the tip's echo over muscle's speckle, off the plane as it is
   /// dB by which the tip stands out in the pictures of that moment; empty where there were none.
   std::optional<double> shown_db;
-  /// What geometry says, and whatever it says, what the picture shows. (A shaft that runs on beside
-  /// the tip takes its contrast, so that little contrast alone hides nothing.)
+  /// What the picture shows, and geometry where there was none. Something bright where a tip gives
+  /// no echo is not the tip.
   [[nodiscard]] bool seen() const noexcept {
-    return loss == SightLoss::none || shown_db.value_or(0) >= kVisibleContrast;
+    if (!shown_db) return loss == SightLoss::none;
+    return *shown_db >= kVisibleContrast && tip_db >= kHeard;
   }
+  static constexpr double kHeard = -12;  ///< dB, of which speckle hides all
 };
 
 /// Tells whether a tip can be seen: the face couples (less than 5 mm of air on the beam to the

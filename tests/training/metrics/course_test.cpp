@@ -116,7 +116,7 @@ TEST(Course, TheWayToThePicturesEdgeIsOneAdvance) {
   EXPECT_NEAR(sum.outside_picture, 15e-3, 0.3e-3);
 }
 
-TEST(Course, WhatThePicturesShowIsSeen) {
+TEST(Course, WhatThePicturesShowIsSeenAndNothingElse) {
   const auto course = course_of({-5, 20, 20, 20}, 100);
   std::vector<std::optional<TipSight>> sights(course.size(), TipSight{});
   sights[150]->loss = SightLoss::off_plane;  // geometry says no, the picture yes
@@ -126,9 +126,10 @@ TEST(Course, WhatThePicturesShowIsSeen) {
   images.push_back({12, false, std::nullopt});
   look_at_pictures(course, images, sights);
   EXPECT_TRUE(sights[150]->seen());
-  EXPECT_TRUE(sights[201]->seen());  // little contrast hides nothing
-  sights[202]->loss = SightLoss::shadow;
-  EXPECT_FALSE(sights[202]->seen());
+  EXPECT_FALSE(sights[201]->seen());  // whatever geometry says
+  EXPECT_FALSE(sights[240]->seen());  // nothing of the tip shows
+  sights[150]->tip_db = TipSight::kHeard - 1;
+  EXPECT_FALSE(sights[150]->seen()) << "what is bright there is not the tip";
   EXPECT_TRUE(sights[20]->seen());  // no picture: geometry
   EXPECT_FALSE(sights[20]->shown_db);
 }
