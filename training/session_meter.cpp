@@ -37,8 +37,12 @@ void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot, double period
   felt.tip = vector_of(snapshot.X_JN.position);
   meter.add_felt(felt);
   const PlungerFeedback& plunger = snapshot.feedback.plunger;
-  meter.add_syringe({time, plunger.flow, plunger.given, plunger.thumb_force, plunger.pressure,
-                     felt.region, felt.tip});
+  SyringeTick syringe{
+      time,        plunger.flow, plunger.given, plunger.thumb_force, plunger.pressure,
+      felt.region, felt.tip};
+  for (std::size_t k = 0; k < std::min<std::size_t>(snapshot.n_sites, syringe.held.size()); ++k)
+    syringe.held[k] = {static_cast<RegionId>(snapshot.sites[k].region), snapshot.sites[k].volume};
+  meter.add_syringe(syringe);
 }
 
 ImageSight sight_of(std::optional<double> contrast_db) {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/property_map.hpp>
 
 namespace artus {
 namespace {

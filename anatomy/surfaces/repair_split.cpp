@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <Eigen/Geometry>
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <Eigen/LU>
 

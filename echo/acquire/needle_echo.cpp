@@ -118,14 +118,7 @@ NeedleEcho::Place NeedleEcho::find_place(const SoundedLine& sounded) const noexc
 /// How much of the shaft's echo a line hears when the shaft lies `y` beside its plane: the
 /// elevation profile convolved with the shaft's width, 1 for a shaft on the axis.
 double NeedleEcho::elevation_share(double y, double z) const noexcept {
-  const double r = needle_.outer_diameter / 2;
-  double sum = 0;
-  double centred = 0;
-  for (const double offset : {-0.8, -0.4, 0.0, 0.4, 0.8}) {
-    sum += shape_->profile().elevation_amplitude(y + offset * r, z);
-    centred += shape_->profile().elevation_amplitude(offset * r, z);
-  }
-  return std::min(1.0, sum / centred);
+  return shape_->profile().elevation_share(y, z, needle_.outer_diameter / 2);
 }
 
 /// The shaft's near wall on one line. A steep shaft passes several samples between two lines: its

@@ -104,4 +104,14 @@ double BeamProfile::elevation_amplitude(double y, double z) const noexcept {
   return (1 - tz) * ((1 - ty) * a[0] + ty * a[1]) + tz * ((1 - ty) * b[0] + ty * b[1]);
 }
 
+double BeamProfile::elevation_share(double y, double z, double radius) const noexcept {
+  double sum = 0;
+  double centred = 0;
+  for (const double offset : {-0.8, -0.4, 0.0, 0.4, 0.8}) {
+    sum += elevation_amplitude(y + offset * radius, z);
+    centred += elevation_amplitude(offset * radius, z);
+  }
+  return std::min(1.0, sum / centred);
+}
+
 }  // namespace artus

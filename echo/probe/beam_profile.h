@@ -24,6 +24,10 @@ class BeamProfile {
   /// Two-way amplitude at elevation `y` and depth `z` relative to the depth's maximum, 0..1.
   [[nodiscard]] double elevation_amplitude(double y, double z) const noexcept;
 
+  /// What is heard of a round rod of `radius` whose axis is at elevation `y`, over what is heard of
+  /// it in the middle, 0..1: its wall lies across the slice. m.
+  [[nodiscard]] double elevation_share(double y, double z, double radius) const noexcept;
+
   /// Largest elevation with a tabulated amplitude, m; beyond it the beam hears nothing.
   [[nodiscard]] double max_elevation() const noexcept { return y_step_ * (n_y_ - 1); }
 

@@ -166,5 +166,23 @@ TEST(Beam, HazeInABonesShadowRepeatsTheTissueAboveIt) {
   EXPECT_NEAR(std::sqrt(haze / tissue), expected, 0.15 * expected);
 }
 
+TEST(BeamProfile, OfARodAsMuchIsHeardAsOfItsWallAcrossTheSlice) {
+  const Transducer t;
+  const BeamProfile profile(t, 40e-3);
+  for (const double z : {8e-3, 20e-3, 30e-3}) {
+    const double middle = profile.elevation_amplitude(0, z);
+    for (int k = 0; k <= 8; ++k) {
+      const double y = 0.1e-3 * k;
+      EXPECT_NEAR(profile.elevation_share(y, z, 0),
+                  std::min(1.0, profile.elevation_amplitude(y, z) / middle), 1e-12);
+      EXPECT_DOUBLE_EQ(profile.elevation_share(y, z, 0.36e-3),
+                       profile.elevation_share(-y, z, 0.36e-3));
+    }
+  }
+  // In the focus the slice is thinner than the rod, which is heard farther out than a thread.
+  EXPECT_GT(profile.elevation_share(0.3e-3, 20e-3, 0.36e-3),
+            1.3 * profile.elevation_share(0.3e-3, 20e-3, 0));
+}
+
 }  // namespace
 }  // namespace artus

@@ -20,11 +20,26 @@ SyringeCourse::SyringeCourse(std::size_t max_doses) {
   doses_.reserve(max_doses);
 }
 
+RegionId SyringeCourse::place_of(const SyringeTick& tick) const noexcept {
+  RegionId place = tick.region;
+  double most = 0;
+  for (const SyringeTick::Held& now : tick.held) {
+    double before = 0;
+    for (const SyringeTick::Held& was : last_.held)
+      if (was.volume > 0 && was.region == now.region) before = was.volume;
+    if (now.volume - before <= most) continue;
+    most = now.volume - before;
+    place = now.region;
+  }
+  return place;
+}
+
 void SyringeCourse::give(const SyringeTick& tick, double volume) noexcept {
   sum_.given += volume;
+  const RegionId place = place_of(tick);
   const bool anew =
-      doses_.empty() || doses_.back().volume >= kDose || doses_.back().region != tick.region;
-  if (anew && doses_.size() < doses_.capacity()) doses_.push_back({0, tick.region, tick.tip});
+      doses_.empty() || doses_.back().volume >= kDose || doses_.back().region != place;
+  if (anew && doses_.size() < doses_.capacity()) doses_.push_back({0, place, tick.tip});
   if (doses_.empty()) return;
   doses_.back().volume += volume;
   doses_.back().tip = tick.tip;

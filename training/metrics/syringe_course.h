@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -18,12 +19,18 @@ struct SyringeTick {
   double pressure = 0;      ///< Pa in the barrel, above the air's
   RegionId region = 0;      ///< at the tip
   Vec3 tip = Vec3::Zero();  ///< m, frame J
+  /// What places hold of what was given, m^3, by their regions; those without a volume are none.
+  struct Held {
+    RegionId region = 0;
+    double volume = 0;
+  };
+  std::array<Held, 4> held{};
 };
 
 /// Liquid given in one place.
 struct Dose {
   double volume = 0;        ///< m^3
-  RegionId region = 0;      ///< at the tip
+  RegionId region = 0;      ///< where it went: of the place that took the most; else at the tip
   Vec3 tip = Vec3::Zero();  ///< m, frame J, when the last of it was given
   double time = 0;          ///< s, then
 };
@@ -61,6 +68,7 @@ class SyringeCourse {
 
  private:
   void give(const SyringeTick& tick, double volume) noexcept;
+  [[nodiscard]] RegionId place_of(const SyringeTick& tick) const noexcept;
 
   SyringeTotals sum_;
   std::vector<Dose> doses_;

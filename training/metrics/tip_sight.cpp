@@ -96,7 +96,8 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
         stops_sound(scene.joint().tissue_of(layers[i].region)))
       sight.shadow = layers[i].region;
   }
-  const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
+  const double heard = beam_.elevation_share(sight.offset, std::clamp(tip.z(), 0.0, depth_),
+                                             shape_.outer_diameter / 2);
   const double aside_db = decibels(heard);
   sight.tip_db = sight.contrast_db + aside_db;
   sight.in_picture = in_sector(tip);
