@@ -8,8 +8,10 @@
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/reports/logbook_page.h"
 #include "artus/detail/training/judgement.h"
 #include "artus/detail/training/norms.h"
+#include "artus/detail/training/pseudonym.h"
 #include "artus/detail/training/record_export.h"
 
 namespace artus {
@@ -90,7 +92,9 @@ Result<void> list(Records& records, const LearnersOptions& options) {
 }
 
 Result<void> add(Records& records, const LearnersOptions& options) {
-  const std::string id = options.person.empty() ? make_random_id() : options.person;
+  const auto persons = records.persons();
+  ARTUS_TRY(persons);
+  const std::string id = options.person.empty() ? make_pseudonym(*persons) : options.person;
   ARTUS_TRY(records.add_person({id, options.role, options.cohort}));
   std::printf("%s\n", id.c_str());
   return {};
@@ -119,6 +123,13 @@ Result<void> report(Records& records, const LearnersOptions& options) {
   return options.person.empty()
              ? write_cohort_page(records, options.cohort, language, options.out)
              : write_learner_page(records, options.person, language, options.out);
+}
+
+Result<void> logbook(Records& records, const LearnersOptions& options) {
+  if (options.out.empty()) return fail(ErrorCode::malformed, "name the page to write", "--out");
+  if (options.person.empty()) return fail(ErrorCode::malformed, "name the person", "--person");
+  return write_logbook_page(records, options.person, utc_now(), language_of(options.language),
+                            options.out);
 }
 
 nlohmann::json to_json(const Norm& n) {
@@ -158,8 +169,8 @@ Result<void> forget(Records& records, const LearnersOptions& options) {
 ExitCode run_learners(const LearnersOptions& options) {
   if (options.what.empty())
     return report_error(
-        {ErrorCode::malformed, "say what: list, show, add, export, report, norms, forget or rate",
-         "what"},
+        {ErrorCode::malformed,
+         "say what: list, show, add, export, report, logbook, norms, forget or rate", "what"},
         options.json);
   std::error_code ignored;
   if (options.what != "add" && !std::filesystem::exists(options.records, ignored))
@@ -175,6 +186,7 @@ ExitCode run_learners(const LearnersOptions& options) {
   if (options.what == "add") done = add(*records, options);
   if (options.what == "export") done = export_all(*records, options);
   if (options.what == "report") done = report(*records, options);
+  if (options.what == "logbook") done = logbook(*records, options);
   if (options.what == "norms") done = norms(*records, options);
   if (options.what == "forget") done = forget(*records, options);
   return done ? ExitCode::ok : report_error(done.error(), options.json);
@@ -240,21 +252,27 @@ ExitCode run_rate(const RateOptions& options) {
 void add_learners_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<LearnersOptions>();
   Command* command = add_command(
-      app, "learners", "Persons and their attempts: list, show, add, export, report, norms, forget",
+      app, "learners",
+      "Persons and their attempts: list, show, add, export, report, logbook, norms, forget",
       "Persons are pseudonyms; whose they are stays with the school. forget removes a person, the\n"
       "details of all attempts and their folders; that there were attempts stays. norms computes\n"
       "what a cohort does in a scenario; that of 'experts' stands in every report beside the\n"
-      "learner's numbers.\n"
+      "learner's numbers. logbook writes what a person did by procedure, what is due again, and "
+      "lines\n"
+      "for a supervisor, to be printed.\n"
       "Examples:\n"
       "  artus learners add --records school.db --cohort 2026\n"
       "  artus learners list --records school.db\n"
       "  artus learners show --records school.db --person a1\n"
       "  artus learners export --records school.db --format xapi --home https://school.example\n"
       "  artus learners report --records school.db --person a1 --out a1.html\n"
+      "  artus learners logbook --records school.db --person a1 --out logbook.html\n"
       "  artus learners norms --records school.db --scenario gel-align --cohort experts\n"
       "  artus learners forget --records school.db --person a1");
-  command->add_option("what", options->what, "list, show, add, export, report, norms or forget")
-      ->one_of({"list", "show", "add", "export", "report", "norms", "forget"});
+  command
+      ->add_option("what", options->what,
+                   "list, show, add, export, report, logbook, norms or forget")
+      ->one_of({"list", "show", "add", "export", "report", "logbook", "norms", "forget"});
   command->add_option("--records", options->records, "file of the records")->required();
   command->add_option("--person", options->person, "pseudonym; add makes one when none is given");
   command->add_option("--cohort", options->cohort, "group of persons");

@@ -16,6 +16,7 @@
 #include "artus/detail/reports/html_page.h"
 #include "artus/detail/reports/mark_words.h"
 #include "artus/detail/reports/moment_view.h"
+#include "artus/detail/reports/number_words.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
@@ -272,8 +273,9 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics, std::span<c
   std::vector<std::vector<std::string>> rows;
   for (const Metric& m : metrics)
     if (m.value)
-      rows.push_back({m.name, m.role, number(language, *m.value, 3), band_of(norms, m, language),
-                      m.unit, m.definition, m.rule.filter});
+      rows.push_back({metric_words(language, m.name), number_words(language, m.role),
+                      number(language, *m.value, 3), band_of(norms, m, language),
+                      number_words(language, m.definition), number_words(language, m.rule.filter)});
   const std::string experts =
       norms.empty() ? std::string(translate(page, "no attempt yet"))
                     : fill(translate_count(language, "of {} attempt", "of {} attempts",
@@ -283,7 +285,6 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics, std::span<c
               {translate(page, "of"), ""},
               {translate(page, "value"), ""},
               {translate(page, "experts, 10 to 90 %"), experts},
-              {translate(page, "unit"), ""},
               {translate(page, "definition"), "", true},
               {translate(page, "filter"), "", true}},
              rows);

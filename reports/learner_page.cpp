@@ -12,6 +12,7 @@
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/reports/html_page.h"
 #include "artus/detail/reports/mark_words.h"
+#include "artus/detail/reports/number_words.h"
 #include "artus/detail/training/judgement.h"
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"
@@ -294,7 +295,9 @@ Result<void> write_learner_page(Records& records, const std::string& person, Lan
   HtmlPage page(fill(translate(language, "Learner {}"), {person}), language);
   std::map<std::string, std::vector<AttemptRecord>> by_scenario;
   for (const AttemptRecord& a : *attempts) by_scenario[a.scenario].push_back(a);
-  for (const auto& [name, own] : by_scenario) add_scenario(page, name, own);
+  const std::vector<Scenario> all = offered();
+  for (const auto& [name, own] : by_scenario)
+    add_scenario(page, title_of(all, name, language), own);
   return write_text(file, page.text());
 }
 
@@ -312,9 +315,10 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
   std::map<std::string, std::map<std::string, std::vector<AttemptRecord>>> scenarios;
   for (const auto& [key, own] : groups)
     if (!key.second.empty()) scenarios[key.first][key.second] = own;
+  const std::vector<Scenario> all = offered();
   ARTUS_TRY(add_stuck(page, records, groups));
   for (const auto& [scenario, learners] : scenarios)
-    add_curve(page, scenario, count_trials(learners));
+    add_curve(page, title_of(all, scenario, language), count_trials(learners));
   std::vector<std::vector<std::string>> rows;
   for (const auto& [key, own] : groups) {
     std::size_t n = 0;
@@ -322,8 +326,8 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
     const std::span<const bool> x(failed.get(), n);
     const auto failures = std::count(x.begin(), x.end(), true);
     const Chart chart = lc_cusum(x, kRates, kLimit);
-    rows.push_back({key.second.empty() ? translate(page, "(forgotten)") : key.second, key.first,
-                    std::to_string(own.size()),
+    rows.push_back({key.second.empty() ? translate(page, "(forgotten)") : key.second,
+                    title_of(all, key.first, language), std::to_string(own.size()),
                     std::to_string(n - static_cast<std::size_t>(failures)),
                     chart.signal ? std::to_string(*chart.signal) : "-"});
   }
@@ -337,7 +341,9 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
       rows);
   std::map<std::string, std::vector<double>> spread;
   for (const MetricValue& m : *metrics)
-    if (m.value) spread[m.name + " (" + m.role + ", " + m.unit + ")"].push_back(*m.value);
+    if (m.value)
+      spread[metric_words(language, m.name) + " (" + number_words(language, m.role) + ")"]
+          .push_back(*m.value);
   rows.clear();
   for (const auto& [name, values] : spread)
     rows.push_back({name, std::to_string(values.size()),

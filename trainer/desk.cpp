@@ -2,35 +2,13 @@
 #include "artus/detail/trainer/desk.h"
 
 #include <algorithm>
-#include <array>
-#include <random>
 #include <utility>
 
 #include "artus/detail/training/norms.h"
 #include "artus/detail/training/past_attempts.h"
+#include "artus/detail/training/pseudonym.h"
 
 namespace artus {
-namespace {
-
-/// "grey-heron-42": easy to keep in mind, and of nobody's name.
-std::string make_pseudonym() {
-  constexpr std::array<const char*, 16> kColours{
-      "amber", "azure", "black", "blue",   "bronze", "coral", "green",  "grey",
-      "ivory", "jade",  "lilac", "orange", "red",    "ruby",  "silver", "white"};
-  constexpr std::array<const char*, 24> kBirds{
-      "avocet", "bunting", "crane",  "curlew", "dipper", "dove",  "eagle",   "falcon",
-      "finch",  "gull",    "heron",  "hoopoe", "ibis",   "jay",   "kestrel", "lark",
-      "linnet", "magpie",  "osprey", "owl",    "plover", "raven", "robin",   "wren"};
-  std::random_device random;
-  const auto of = [&random](unsigned n) {
-    return static_cast<std::size_t>(random() % n);
-  };
-  return std::string(kColours.at(of(kColours.size()))) + "-" + kBirds.at(of(kBirds.size())) + "-" +
-         std::to_string(10 + of(90));
-}
-
-}  // namespace
-
 Result<TrainDesk> TrainDesk::open(const std::filesystem::path& records,
                                   std::filesystem::path attempts) {
   std::error_code error;
@@ -55,15 +33,7 @@ Result<std::string> TrainDesk::add_learner(const std::string& cohort) {
   ARTUS_TRY(persons);
   PersonRecord person;
   person.cohort = cohort;
-  const auto taken = [&] {
-    return std::any_of(persons->begin(), persons->end(),
-                       [&](const PersonRecord& other) { return other.id == person.id; });
-  };
-  constexpr int kTries = 1000;
-  int tries = 0;
-  do {
-    person.id = ++tries < kTries ? make_pseudonym() : make_random_id();
-  } while (taken());
+  person.id = make_pseudonym(*persons);
   ARTUS_TRY(records_.add_person(person));
   return person.id;
 }
@@ -98,6 +68,10 @@ Result<std::vector<AttemptRecord>> TrainDesk::finished(const std::string& person
 
 Result<std::vector<Norm>> TrainDesk::norms(const AttemptRecord& attempt) {
   return records_.norms(attempt.scenario_hash, kExperts);
+}
+
+Result<std::vector<AttemptEvent>> TrainDesk::events(const AttemptRecord& attempt) {
+  return records_.events(attempt.id);
 }
 
 Result<std::vector<PastAttempt>> TrainDesk::before(const AttemptRecord& attempt) {

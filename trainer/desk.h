@@ -36,6 +36,8 @@ class TrainDesk {
   [[nodiscard]] Result<std::vector<AttemptRecord>> finished(const std::string& person);
   /// What the same person had done when an attempt began.
   [[nodiscard]] Result<std::vector<PastAttempt>> before(const AttemptRecord& attempt);
+  /// What happened in an attempt, as it was stored.
+  [[nodiscard]] Result<std::vector<AttemptEvent>> events(const AttemptRecord& attempt);
   /// What experts do in the attempt's scenario.
   [[nodiscard]] Result<std::vector<Norm>> norms(const AttemptRecord& attempt);
 
