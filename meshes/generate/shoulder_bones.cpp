@@ -13,29 +13,7 @@ namespace {
 const Vec3 kToGlenoid = Vec3(0.90, 0.40, -0.15).normalized();
 const Vec3 kGlenoidUp = (Vec3::UnitZ() - kToGlenoid * kToGlenoid.z()).normalized();
 // From the centre of the head through the middle of its articular surface.
-const Vec3 kHeadAxis = Vec3(0.78, 0.30, 0.55).normalized();
-
-Field make_humerus(const Millimetres& mm) {
-  const Field head = make_ball(Vec3::Zero(), mm.length(24));
-  const Field shaft = make_tube({{mm.at(-3, 0, -6), mm.length(19)},
-                                 {mm.at(-8, 0, -24), mm.length(16.5)},
-                                 {mm.at(-13, 1, -44), mm.length(13.5)},
-                                 {mm.at(-20, 2, -75), mm.length(11.5)},
-                                 {mm.at(-29, 2, -115), mm.length(11)}});
-  const Field greater =
-      unite(make_tube({{mm.at(-16.5, -5, 4), mm.length(11)}, {mm.at(-15, 9, 0), mm.length(11)}}),
-            make_tube({{mm.at(-17, -8, 2), mm.length(9)}, {mm.at(-17, -9, -26), mm.length(7)}}),
-            mm.length(4));
-  const Field lesser =
-      make_tube({{mm.at(-6, -18.5, 1), mm.length(8)}, {mm.at(-10, -14, -24), mm.length(6.5)}});
-  const Field groove = make_tube({{mm.at(-16.5, -20, 22), mm.length(4)},
-                                  {mm.at(-16.8, -19.5, 0), mm.length(4)},
-                                  {mm.at(-18, -18.5, -28), mm.length(3.5)},
-                                  {mm.at(-20, -17, -60), mm.length(3)}});
-  const Field tubercles = unite(greater, lesser, mm.length(3));
-  return subtract(unite(unite(head, shaft, mm.length(6)), tubercles, mm.length(3)), groove,
-                  mm.length(2));
-}
+const Vec3 kHeadAxis = Vec3(0.64, 0.30, 0.71).normalized();
 
 Field make_glenoid_block(const Millimetres& mm, double joint_radius) {
   Eigen::Matrix3d axes;
@@ -112,14 +90,16 @@ Field make_glenoid_cartilage(const Millimetres& mm, const ShoulderSize& size) {
 std::vector<Solid> make_shoulder_bones(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
   const double joint_radius = size.head_radius + 2 * size.cartilage;
-  const double head_layer = size.head_radius + size.cartilage;
+  // Thicker in the middle, thin at the anatomical neck, where it ends before the footprint.
+  constexpr double kEndsAt = 0.12;  // of the radius above the middle: 83 degrees from the axis
+  const double thins = 0.7e-3;
+  const Field outer = make_ball(thins * kHeadAxis, size.head_radius + size.cartilage - thins);
   const Field head_cartilage =
-      intersect(subtract(make_ball(Vec3::Zero(), head_layer),
-                         make_ball(Vec3::Zero(), size.head_radius - size.cartilage), 0.3e-3),
-                make_half_space(-0.1 * size.head_radius * kHeadAxis, -kHeadAxis), 0.8e-3);
+      intersect(subtract(outer, make_ball(Vec3::Zero(), size.head_radius - size.cartilage), 0.3e-3),
+                make_half_space(kEndsAt * size.head_radius * kHeadAxis, -kHeadAxis), 1.2e-3);
   const double middle = size.head_radius + 0.3 * size.cartilage;
   const Vec3 rim_seed = glenoid_rim(mm, joint_radius).front();
-  return {{"humerus", make_humerus(mm), Vec3::Zero(), mm.length(150), 2.2e-3, 0.1e-3},
+  return {{"humerus", make_humerus(size), Vec3::Zero(), mm.length(150), 1.8e-3, 0.06e-3},
           {"scapula", make_scapula(mm, joint_radius), mm.at(42, 19, -2), mm.length(180), 2.2e-3,
            0.12e-3},
           {"clavicle", make_clavicle(mm), mm.at(34, 4, 43), mm.length(100), 2.5e-3, 0.12e-3},

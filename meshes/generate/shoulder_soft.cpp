@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
 #include "artus/detail/core/check.h"
 #include "artus/detail/meshes/generate/millimetres.h"
 #include "artus/detail/meshes/generate/shoulder.h"
@@ -7,10 +10,11 @@
 namespace artus {
 namespace {
 
-constexpr double kBursaBeginsMm = 2.6;  // above the core
+constexpr double kDeltoidBeginsMm = 4.1;  // above the core
+constexpr double kSeptumMm = 0.8;
 
-// What bursa, deltoid, fat and skin lie around: head, tuberosities and cuff as one smooth bulge
-// that runs out into the shaft. The farther out a layer lies, the softer its hollows (`blend`).
+// What deltoid, fat and skin lie around: head, tuberosities and cuff as one smooth bulge that runs
+// out into the shaft. The farther out a layer lies, the softer its hollows (`blend`).
 Field make_core(const Millimetres& mm, double blend) {
   return unite(make_ball(mm.at(0, 1, 0.5), mm.length(28.5)),
                make_tube({{mm.at(-6, 0, -10), mm.length(22)},
@@ -21,14 +25,17 @@ Field make_core(const Millimetres& mm, double blend) {
                mm.length(blend));
 }
 
-Field make_layer(const Field& inner, double begin, const Field& outer, double end) {
-  return subtract(grow(outer, end), grow(inner, begin), 0.2e-3);
+// The side of the deltoid that faces the skin.
+Field make_deltoid_side(const Millimetres& mm, const ShoulderSize& size) {
+  return grow(make_core(mm, 20), mm.length(kDeltoidBeginsMm) + size.deltoid);
 }
 
 // The deltoid rises from clavicle, acromion and spine and runs to the lateral shaft: nothing of it
 // is medial of a wedge that opens forward and backward and recedes downward.
-Field make_deltoid(const Millimetres& mm, const ShoulderSize& size, double begin) {
-  const Field layer = make_layer(make_core(mm, 6), begin, make_core(mm, 20), begin + size.deltoid);
+Field make_deltoid(const Millimetres& mm, const ShoulderSize& size, const Field& cuff_side) {
+  // No film of fat is left between it and the cuff, which the joint file puts first.
+  const Field inside = grow(cuff_side, -0.5e-3);
+  const Field layer = subtract(make_deltoid_side(mm, size), inside, 0.2e-3);
   const Field front = make_half_space(mm.at(8, 0, 0), Vec3(1, 0.4, -0.4));
   const Field back = make_half_space(mm.at(8, 0, 0), Vec3(1, -0.4, -0.4));
   const Field wedge = unite(front, back, mm.length(8));
@@ -38,57 +45,76 @@ Field make_deltoid(const Millimetres& mm, const ShoulderSize& size, double begin
                    distal, mm.length(6));
 }
 
-Field make_bursa(const Millimetres& mm, const ShoulderSize& size) {
-  const double begin = mm.length(kBursaBeginsMm);
-  const Field layer = make_layer(make_core(mm, 6), begin, make_core(mm, 6), begin + size.bursa);
-  return intersect(layer, make_ball(mm.at(-20, -2, 18), mm.length(33)), 0.5e-3);
+// A sheet that goes through all of the deltoid below its outer `side`, oblique to the skin and a
+// little wavy, as its intramuscular septa do: `degrees` from lateral to the back, leaning by `lean`
+// degrees. What lies under the deltoid takes its share of it.
+Solid make_septum(const Millimetres& mm, const Field& side, const char* name, double degrees,
+                  double lean) {
+  const double angle = degrees * std::numbers::pi / 180;
+  const double tilt = lean * std::numbers::pi / 180;
+  const Vec3 out(-std::cos(angle), std::sin(angle), 0);
+  const Vec3 along(std::sin(angle), std::cos(angle), 0);
+  const Vec3 normal = std::cos(tilt) * along + std::sin(tilt) * out;
+  const Vec3 through = mm.at(0, 0, 8) + mm.length(40) * out;
+  const double wave = mm.length(1);
+  const double half = 0.5 * kSeptumMm * 1e-3;
+  const auto bend = [=](const Vec3& p) {
+    const Vec3 from = (p - through) / wave;
+    return wave * (1.8 * std::sin(from.z() / 9 + angle) + 0.9 * std::sin(from.dot(out) / 3.5));
+  };
+  const Field sheet = [=](const Vec3& p) {
+    return std::abs(normal.dot(p - through) - bend(p)) - half;
+  };
+  const Field high = make_half_space(mm.at(0, 0, 34), Vec3::UnitZ());
+  const Field low = make_half_space(mm.at(0, 0, -12), -Vec3::UnitZ());
+  const Field outer_half = make_half_space(0.5 * through, -out);
+  const Field inner = make_ball(mm.at(0, 0, 0), mm.length(28));
+  const Field depth = subtract(grow(side, -1e-3), inner, 0);
+  const Field within = intersect(intersect(intersect(high, low, 0), outer_half, 0), depth, 0);
+  return {name,
+          intersect(sheet, within, half),
+          through + bend(through) * normal,
+          mm.length(140),
+          2.2e-3,
+          0.12e-3};
 }
 
-Field make_supraspinatus(const Millimetres& mm, double half_tendon) {
-  const Vec3 up(0, 0, 1);
-  return make_ribbon(
-      {{mm.at(84, 57, 19), Vec3(-0.5, -0.3, 1), mm.length(8), mm.length(6)},
-       {mm.at(64, 41, 19), Vec3(-0.2, -0.2, 1), mm.length(10), mm.length(9)},
-       {mm.at(42, 24, 25), up, mm.length(11), mm.length(8)},
-       {mm.at(24, 13, 29), Vec3(0.2, 0, 1), mm.length(11), mm.length(5)},
-       {mm.at(8, 4, 28.2), Vec3(0.28, 0.1, 1), mm.length(11), half_tendon},
-       {mm.at(-7, -1, 27.2), Vec3(-0.3, 0, 1), mm.length(11), half_tendon},
-       {mm.at(-18, -4, 18.5), Vec3(-0.7, 0, 0.7), mm.length(10.5), half_tendon},
-       {mm.at(-24, -5.5, 10.5), Vec3(-0.9, 0, 0.4), mm.length(9.5), 0.7 * half_tendon}});
+// What lies between two sides, thinning out to nothing towards its rim.
+Field make_bursa_layer(const Millimetres& mm, const Field& outer, const Field& inner,
+                       double radius) {
+  const Field layer = subtract(outer, inner, 0.1e-3);
+  return intersect(layer, make_ball(mm.at(-20, -3, 19), mm.length(radius)), mm.length(2));
 }
 
-Field make_infraspinatus(const Millimetres& mm) {
-  const Vec3 back = Vec3(-0.64, 0.77, 0);
-  return make_ribbon({{mm.at(78, 74, -34), back, mm.length(20), mm.length(6)},
-                      {mm.at(54, 54, -24), back, mm.length(21), mm.length(9)},
-                      {mm.at(32, 40, -11), Vec3(-0.3, 1, 0.1), mm.length(16), mm.length(8)},
-                      {mm.at(10, 30, 1), Vec3(0, 1, 0.1), mm.length(11), mm.length(4)},
-                      {mm.at(-8, 25.5, 8), Vec3(-0.3, 1, 0.2), mm.length(9), mm.length(2.7)},
-                      {mm.at(-20, 15, 11), Vec3(-0.8, 0.6, 0.3), mm.length(8), mm.length(2.4)}});
+// An oval that lies flat on head and groove, from the upper rim of the glenoid down the arm.
+Field make_biceps(const Millimetres& mm) {
+  const auto station = [&](double x, double y, double z, double lift) {
+    return RibbonStation{mm.at(x, y, z), Vec3(x, y, lift), mm.length(2.7), mm.length(1.8)};
+  };
+  return make_ribbon({station(29, 10, 17, 17), station(20, 3, 22.5, 22.5), station(6, -10, 26, 26),
+                      station(-8, -18, 20.5, 20), station(-16, -19.9, 8, 4),
+                      station(-17, -19.7, -10, 0), station(-18, -18.7, -28, 0),
+                      station(-20, -17.5, -60, 0)});
 }
 
-Field make_teres_minor(const Millimetres& mm) {
-  return make_ribbon({{mm.at(58, 54, -66), Vec3(-0.6, 0.8, 0), mm.length(6), mm.length(5)},
-                      {mm.at(38, 42, -42), Vec3(-0.5, 0.9, 0), mm.length(8), mm.length(6.5)},
-                      {mm.at(12, 30, -21), Vec3(0, 1, 0), mm.length(7), mm.length(4.5)},
-                      {mm.at(-8, 25, -9), Vec3(-0.3, 1, 0), mm.length(6), mm.length(2.6)},
-                      {mm.at(-19, 18.5, -3), Vec3(-0.6, 0.7, 0), mm.length(5), mm.length(2.2)}});
+// A film of fluid around it in the groove, tapered at both ends.
+Field make_biceps_sheath(const Millimetres& mm) {
+  const auto station = [&](double x, double y, double z, double wide, double thick) {
+    return RibbonStation{mm.at(x, y, z), Vec3(x, y, 0), mm.length(wide), mm.length(thick)};
+  };
+  return make_ribbon({station(-14.6, -19.9, 11, 2.9, 1.9), station(-16.2, -20, 6, 3.5, 2.6),
+                      station(-17, -19.9, -6, 3.6, 2.8), station(-17.6, -19.3, -18, 3.4, 2.6),
+                      station(-18.4, -18.6, -30, 2.8, 1.9)});
 }
 
-Field make_subscapularis(const Millimetres& mm) {
-  return make_ribbon({{mm.at(84, 46, -40), Vec3(0.64, -0.77, 0), mm.length(26), mm.length(5)},
-                      {mm.at(62, 21, -24), Vec3(0.64, -0.77, 0), mm.length(25), mm.length(9)},
-                      {mm.at(43, -3, -13), Vec3(0.4, -0.9, 0), mm.length(19), mm.length(8)},
-                      {mm.at(24, -21, -6), Vec3(0.5, -0.85, 0), mm.length(14), mm.length(4.5)},
-                      {mm.at(8, -28.5, -3), Vec3(0.2, -1, 0), mm.length(11), mm.length(2.9)},
-                      {mm.at(-4, -28, 0), Vec3(0, -1, 0), mm.length(10), mm.length(2.4)}});
-}
-
-std::vector<TubeStation> biceps_course(const Millimetres& mm, double radius) {
-  return {{mm.at(29, 10, 17), radius},      {mm.at(20, 3, 22.5), radius},
-          {mm.at(6, -10, 26), radius},      {mm.at(-8, -18, 20.5), radius},
-          {mm.at(-16, -19.5, 8), radius},   {mm.at(-17, -19.5, -10), radius},
-          {mm.at(-18, -18.5, -28), radius}, {mm.at(-20, -17.5, -60), radius}};
+// From the coracoid to the tip of the acromion, over the front of the bursa [Gray2020].
+Field make_coracoacromial_ligament(const Millimetres& mm) {
+  const Vec3 out(-0.25, -0.65, 0.7);
+  return make_ribbon({{mm.at(35, -20, 19), out, mm.length(7.5), mm.length(0.9)},
+                      {mm.at(25, -18.5, 26), out, mm.length(6.5), mm.length(0.9)},
+                      {mm.at(12, -15, 33), out, mm.length(5.5), mm.length(0.9)},
+                      {mm.at(1, -9, 37.5), out, mm.length(4.5), mm.length(0.9)}},
+                     3);
 }
 
 // Capsule as a solid around the head's articular half with the axillary pouch below; bone,
@@ -115,17 +141,23 @@ Field make_trunk(const Millimetres& mm) {
 
 Field make_shoulder_body(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
-  const double skin_end =
-      mm.length(kBursaBeginsMm) + size.bursa + size.deltoid + size.fat + size.skin;
+  const double skin_end = mm.length(kDeltoidBeginsMm) + size.deltoid + size.fat + size.skin;
   return unite(grow(make_core(mm, 24), skin_end), make_trunk(mm), mm.length(30));
 }
 
 std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
-  const double bursa_begin = mm.length(kBursaBeginsMm);
-  const double deltoid_begin = bursa_begin + size.bursa;
-  const Vec3 core_top = mm.at(0, 1, 29);
-  const Vec3 above(0, 0, 1);
+  const Field cuff_side = make_shoulder_cuff_side(size);
+  const double bursa_begin = size.peribursal_fat;
+  const double bursa_end = bursa_begin + size.bursa;
+  const Field deltoid_side = make_deltoid_side(mm, size);
+  const Field deltoid = make_deltoid(mm, size, cuff_side);
+  // The first point straight above the head that lies `distance` outside of the cuff's side.
+  const auto above_cuff = [&](double distance) {
+    Vec3 p = mm.at(-8, 0, 26);
+    while (cuff_side(p) < distance) p.z() += 0.02e-3;
+    return p;
+  };
   const Vec3 core_side = mm.at(-28.5, 1, 0.5);
   const Field fluid = unite(
       make_ellipsoid(mm.at(13, 4, -23), Vec3(mm.length(10.5), mm.length(9.5), mm.length(7))),
@@ -133,25 +165,23 @@ std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size) {
       mm.length(3));
   return {
       {"body", make_shoulder_body(size), Vec3::Zero(), mm.length(420), 6e-3, 0.25e-3},
-      {"deltoid", make_deltoid(mm, size, deltoid_begin),
-       core_side - Vec3(deltoid_begin + 0.5 * size.deltoid, 0, 0), mm.length(200), 2.6e-3, 0.15e-3},
-      {"subacromial_bursa", make_bursa(mm, size),
-       core_top + (bursa_begin + 0.5 * size.bursa) * above, mm.length(100), 1.2e-3, 0.06e-3},
-      {"supraspinatus", make_supraspinatus(mm, 0.5 * size.tendon_thickness), mm.at(42, 24, 25),
-       mm.length(120), 1.8e-3, 0.1e-3},
-      {"infraspinatus", make_infraspinatus(mm), mm.at(32, 40, -11), mm.length(120), 2.2e-3,
-       0.12e-3},
-      {"teres_minor", make_teres_minor(mm), mm.at(38, 42, -42), mm.length(120), 2e-3, 0.12e-3},
-      {"subscapularis", make_subscapularis(mm), mm.at(43, -3, -13), mm.length(120), 2.2e-3,
-       0.12e-3},
-      {"biceps_long_tendon", make_tube(biceps_course(mm, mm.length(2.5))), mm.at(-17, -19.5, -10),
-       mm.length(120), 1.2e-3, 0.08e-3},
-      {"biceps_sheath",
-       make_tube({{mm.at(-12, -19.5, 15), mm.length(3.6)},
-                  {mm.at(-16, -19.5, 8), mm.length(3.8)},
-                  {mm.at(-17, -19.5, -10), mm.length(3.8)},
-                  {mm.at(-18, -18.5, -26), mm.length(3.4)}}),
-       mm.at(-17, -19.5, -10), mm.length(80), 1.3e-3, 0.08e-3},
+      {"deltoid", deltoid, core_side - Vec3(mm.length(kDeltoidBeginsMm) + 0.5 * size.deltoid, 0, 0),
+       mm.length(200), 2.6e-3, 0.14e-3},
+      {"subacromial_bursa",
+       make_bursa_layer(mm, grow(cuff_side, bursa_end), grow(cuff_side, bursa_begin), 28),
+       above_cuff(0.5 * (bursa_begin + bursa_end)), mm.length(100), 1.1e-3, 0.04e-3},
+      {"peribursal_fat",
+       make_bursa_layer(mm, grow(cuff_side, bursa_end + size.peribursal_fat),
+                        grow(make_core(mm, 6), mm.length(-2.5)), 30),
+       above_cuff(0.5 * (bursa_begin + bursa_end)), mm.length(100), 1.3e-3, 0.05e-3},
+      {"biceps_long_tendon", make_biceps(mm), mm.at(-17, -19.7, -10), mm.length(120), 1.2e-3,
+       0.06e-3},
+      {"coracoacromial_ligament", make_coracoacromial_ligament(mm), mm.at(12, -15, 33),
+       mm.length(60), 1.2e-3, 0.06e-3},
+      make_septum(mm, deltoid_side, "deltoid_septum_1", -40, -36),
+      make_septum(mm, deltoid_side, "deltoid_septum_2", 4, -36),
+      {"biceps_sheath", make_biceps_sheath(mm), mm.at(-17, -19.7, -10), mm.length(80), 1.2e-3,
+       0.05e-3},
       {"joint_fluid", fluid, mm.at(13, 4, -23), mm.length(60), 1.5e-3, 0.08e-3},
       {"glenohumeral_capsule", make_capsule(mm, size), mm.at(10, 2, 0), mm.length(80), 1.8e-3,
        0.1e-3}};
@@ -162,6 +192,7 @@ std::vector<Solid> make_shoulder(const ShoulderSize& size) {
                     size.bursa > 0 && size.deltoid > 0 && size.fat > 0 && size.skin > 0,
                 "every size must be positive");
   std::vector<Solid> solids = make_shoulder_soft_tissue(size);
+  for (Solid& s : make_shoulder_cuff(size)) solids.push_back(std::move(s));
   for (Solid& s : make_shoulder_bones(size)) solids.push_back(std::move(s));
   for (Solid& s : make_shoulder_vessels(size)) solids.push_back(std::move(s));
   for (Solid& s : make_shoulder_variants(size)) solids.push_back(std::move(s));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <array>
+#include <cmath>
 
 #include "artus/detail/meshes/generate/millimetres.h"
+#include "artus/detail/meshes/generate/scapular_frame.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/sweep.h"
 
@@ -20,11 +22,62 @@ Field make_in_tendon(const Vec3& centre, const Vec3& half_axes) {
   return make_ellipsoid(centre, half_axes, axes);
 }
 
+// Flat along the fibres, of lumps that run together.
+Field make_deposit(const Millimetres& mm, const Vec3& centre) {
+  const Vec3 across = kOutOfTendon.cross(kAlongTendon).normalized();
+  const auto lump = [&](double along, double side, const Vec3& half_axes) {
+    return make_in_tendon(
+        centre + mm.length(along) * kAlongTendon + mm.length(side) * across,
+        Vec3(mm.length(half_axes.x()), mm.length(half_axes.y()), mm.length(half_axes.z())));
+  };
+  const Field ends = unite(lump(3.2, 1.2, {3.2, 2.6, 1.3}), lump(-3, -1.6, {3.4, 2.4, 1.1}), 0);
+  return unite(lump(0, 0, {4.6, 3.8, 1.7}), ends, mm.length(1));
+}
+
+// A wave in three directions, for edges that are torn and bone that is rough. No unit, -1 to 1.
+double roughness(const Vec3& p, double length) {
+  const Vec3 q = p / length;
+  return (std::sin(q.x() + 1.7 * std::sin(0.8 * q.y())) + std::sin(1.1 * q.y() + 0.9 * q.z()) +
+          std::sin(1.3 * q.z() - 0.7 * q.x() + 1)) /
+         3;
+}
+
+// The tendon is off its footprint over 17 mm and drawn back as far [Kim2010]; what lies between is
+// fluid up to the bursa, and the bone under it is pitted [Wohlwend1998].
+Field make_tear(const ShoulderSize& size) {
+  const Millimetres mm(size.head_radius);
+  const ScapularFrame frame(size.head_radius);
+  const Field bone = make_humerus(size);
+  const double wave = mm.length(0.9);
+  const Field off_bone = [bone, wave](const Vec3& p) {
+    return -bone(p) - 0.45e-3 - 0.55e-3 * roughness(p, wave);
+  };
+  // The stump is blunt: its bursal and its articular side slant to an edge between them.
+  const Vec3 edge = frame.on_circle(28, 29, 2);
+  const Field stump_sides =
+      unite(make_half_space(edge, ScapularFrame::direction(0.55, 0.1, 0.83)),
+            make_half_space(edge, ScapularFrame::direction(0.97, -0.1, -0.2)), mm.length(1.5));
+  const Field stump = [stump_sides, wave](const Vec3& p) {
+    return stump_sides(p) + 0.9e-3 * roughness(p, 0.9 * wave);
+  };
+  const Field under_bursa = make_ball(frame.at(0, 2, 0), mm.length(32.1));
+  const Field oval =
+      make_ellipsoid(frame.at(-19, 2.5, 18), mm.at(20, 9.5, 15), ScapularFrame::axes());
+  const Field width = [oval, wave](const Vec3& p) {
+    return oval(p) + 1.2e-3 * roughness(p, 1.3 * wave);
+  };
+  const Field gap =
+      intersect(intersect(under_bursa, off_bone, mm.length(0.6)), stump, mm.length(0.8));
+  const Field end =
+      make_half_space(frame.at(-27, 0, 10.5), ScapularFrame::direction(-0.85, 0, -0.5));
+  return intersect(intersect(gap, width, mm.length(1)), end, mm.length(2));
+}
+
 // Between head and posterior labrum, where the capsule lies on the cartilage.
 Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
-  const double inner = size.head_radius + size.cartilage - 0.2e-3;
+  const double inner = size.head_radius + size.cartilage - 0.8e-3;
   const Field film =
-      subtract(make_ball(Vec3::Zero(), inner + 1.7e-3), make_ball(Vec3::Zero(), inner), 0.2e-3);
+      subtract(make_ball(Vec3::Zero(), inner + 2.3e-3), make_ball(Vec3::Zero(), inner), 0.2e-3);
   return intersect(film, make_ball(mm.at(13, 24.5, -2), mm.length(9)), 0.4e-3);
 }
 
@@ -59,16 +112,14 @@ std::vector<TubeStation> make_course(const std::vector<Vec3>& points, double rad
 
 std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
-  const Vec3 deposit = mm.at(-12.9, -3.5, 23.4);
-  const Vec3 tear = mm.at(-18.3, -4.6, 18.6);
+  const Vec3 deposit = mm.at(-12.9, -3.5, 24.2);
+  const Vec3 tear = ScapularFrame(size.head_radius).on_circle(28.4, 42, 2);
   const Vec3 ac = mm.at(15.8, 7, 41);
   const Vec3 recess =
       Vec3(13, 24.5, -2).normalized() * (size.head_radius + size.cartilage + 0.6e-3);
   return {
-      {"calcific_deposit", make_in_tendon(deposit, mm.at(6, 4.5, 1.9)), deposit, mm.length(40),
-       0.9e-3, 0.05e-3},
-      {"supraspinatus_tear", make_in_tendon(tear, mm.at(5.5, 6, 5)), tear, mm.length(40), 1.2e-3,
-       0.06e-3},
+      {"calcific_deposit", make_deposit(mm, deposit), deposit, mm.length(40), 0.8e-3, 0.04e-3},
+      {"supraspinatus_tear", make_tear(size), tear, mm.length(50), 0.8e-3, 0.05e-3},
       {"posterior_recess", make_posterior_recess(mm, size), recess, mm.length(50), 1e-3, 0.05e-3},
       {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -11, 29.5),
        mm.length(80), 1e-3, 0.06e-3},

@@ -83,7 +83,7 @@ Foot find_foot(const std::vector<RibbonStation>& path, const Vec3& p) {
   return foot;
 }
 
-double ribbon_value(const Foot& foot, const Vec3& p) {
+double ribbon_value(const Foot& foot, const Vec3& p, double power) {
   const RibbonStation& s = foot.station;
   const Vec3 normal = (s.normal - foot.tangent * foot.tangent.dot(s.normal)).normalized();
   const Vec3 offset = p - s.centre;
@@ -91,10 +91,16 @@ double ribbon_value(const Foot& foot, const Vec3& p) {
   const double wide = offset.dot(foot.tangent.cross(normal));
   const double along = offset.dot(foot.tangent);
   const Vec3 half(s.half_width, s.half_thickness, s.half_thickness);
-  const Vec3 scaled = Vec3(wide, thick, along).cwiseQuotient(half);
-  const double steepness = scaled.cwiseQuotient(half).norm();
-  if (steepness <= 0) return -half.minCoeff();
-  return scaled.norm() * (scaled.norm() - 1) / steepness;
+  const Vec3 scaled = Vec3(wide, thick, along).cwiseQuotient(half).cwiseAbs();
+  const double size = std::pow(scaled.array().pow(power).sum(), 1 / power);
+  if (size <= 0) return -half.minCoeff();
+  // The size is homogeneous of degree one; its gradient makes a distance of it.
+  const Vec3 slope = (scaled / size).array().pow(power - 1).matrix().cwiseQuotient(half);
+  const double to_first_order = (size - 1) / slope.norm();
+  if (size <= 1) return to_first_order;
+  // Far beyond the rim of a thin section the first order is much too near; the box is not.
+  const Vec3 beyond = (Vec3(wide, thick, along).cwiseAbs() - half).cwiseMax(0);
+  return std::max(to_first_order, beyond.norm());
 }
 
 double distance_to_triangle(const std::array<Vec3, 3>& t, const Vec3& p) {
@@ -155,10 +161,11 @@ Field make_ring(const std::vector<Vec3>& points, double radius) {
   return make_round(refine(round_stations(stations), true));
 }
 
-Field make_ribbon(const std::vector<RibbonStation>& stations) {
-  ARTUS_REQUIRE(stations.size() >= 2, "a ribbon needs two stations");
-  return [path = refine(stations, false)](const Vec3& p) {
-    return ribbon_value(find_foot(path, p), p);
+Field make_ribbon(const std::vector<RibbonStation>& stations, double power) {
+  ARTUS_REQUIRE(stations.size() >= 2 && power >= 2,
+                "a ribbon needs two stations and a power of at least 2");
+  return [path = refine(stations, false), power](const Vec3& p) {
+    return ribbon_value(find_foot(path, p), p, power);
   };
 }
 

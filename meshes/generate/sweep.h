@@ -30,8 +30,9 @@ struct RibbonStation {
 [[nodiscard]] Field make_ring(const std::vector<Vec3>& points, double radius);
 
 /// A tube of elliptical section with rounded ends along the smooth curve through the stations.
-/// Requires: at least two stations; normals not along the curve.
-[[nodiscard]] Field make_ribbon(const std::vector<RibbonStation>& stations);
+/// `power` makes the section a superellipse: 2 an ellipse, more a band that keeps its thickness
+/// toward its edges. Requires: at least two stations; normals not along the curve; power >= 2.
+[[nodiscard]] Field make_ribbon(const std::vector<RibbonStation>& stations, double power = 2);
 
 /// A flat plate with rounded rim: all points within `radius` of one of the triangles.
 [[nodiscard]] Field make_plate(const std::vector<std::array<Vec3, 3>>& triangles, double radius);

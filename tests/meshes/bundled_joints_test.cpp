@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The joint files of the generated joints: valid, and their poses where the anatomy is.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 #include "artus/anatomy/joint_file.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/scapular_frame.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
 #include "tests/support/paths.h"
@@ -117,15 +120,122 @@ TEST(BundledJoints, ShoulderLandmarksLieOnTheirBones) {
 
 TEST(BundledJoints, SupraspinatusTendonIsFiveToSixMillimetresThickOverTheHead) {
   const std::vector<Solid> solids = make_shoulder({});
-  const Field tendon = find_solid(solids, "supraspinatus");
+  const Field tendon = subtract(find_solid(solids, "supraspinatus_tendon"),
+                                find_solid(solids, "humeral_cartilage"), 0);
+  const Field off_bone = subtract(tendon, find_solid(solids, "humerus"), 0);
   const Vec3 up(0, 0, 1);
   double thickness = 0;
   constexpr double kStep = 0.05e-3;
   for (double z = 20e-3; z < 40e-3; z += kStep) {
-    if (tendon(Vec3(0, 1.5e-3, 0) + z * up) < 0) thickness += kStep;
+    if (off_bone(Vec3(0, 1.5e-3, 0) + z * up) < 0) thickness += kStep;
   }
   EXPECT_GT(thickness, 5e-3);
   EXPECT_LT(thickness, 6.2e-3);
+}
+
+// Along a line out of the head: where it leaves the last of a solid, m from the middle.
+double last_inside(const Field& solid, const Vec3& out) {
+  constexpr double kStep = 0.02e-3;
+  double last = 0;
+  for (double r = 15e-3; r < 45e-3; r += kStep)
+    if (solid(r * out) < 0) last = r;
+  return last;
+}
+
+double length_inside(const Field& solid, const Vec3& out) {
+  constexpr double kStep = 0.02e-3;
+  double length = 0;
+  for (double r = 15e-3; r < 45e-3; r += kStep) length += solid(r * out) < 0 ? kStep : 0;
+  return length;
+}
+
+TEST(BundledJoints, SupraspinatusTendonThinsToItsFootprintLikeABeakWithoutAStep) {
+  const std::vector<Solid> solids = make_shoulder({});
+  const Field tendon = find_solid(solids, "supraspinatus_tendon");
+  const Field bone = find_solid(solids, "humerus");
+  double before = 1;
+  double greatest = 0;
+  for (double degrees = 30; degrees < 64; degrees += 0.5) {
+    const Vec3 out = ScapularFrame::outward(degrees);
+    const double over = 1e3 * (last_inside(tendon, out) - last_inside(bone, out));
+    if (degrees > 30) {
+      EXPECT_LT(std::abs(over - before), 0.6) << degrees;
+    }
+    before = over;
+    greatest = std::max(greatest, over);
+  }
+  EXPECT_GT(greatest, 5);
+  EXPECT_LT(before, 1.5);
+}
+
+TEST(BundledJoints, SupraspinatusMuscleRunsOutOverItsTendonWithoutAWall) {
+  const std::vector<Solid> solids = make_shoulder({});
+  const Field tendon = find_solid(solids, "supraspinatus_tendon");
+  const Field belly = find_solid(solids, "supraspinatus");
+  const ScapularFrame frame(24e-3);
+  int both = 0;
+  int tongues = 0;
+  for (double u = -4; u < 48; u += 0.5) {
+    bool has_tendon = false;
+    bool has_muscle = false;
+    int changes = 0;
+    bool was = false;
+    for (double z = 18; z < 36; z += 0.05) {
+      const bool in_tendon = tendon(frame.at(u, 2.4, z)) < 0;
+      const bool in_muscle = !in_tendon && belly(frame.at(u, 2.4, z)) < 0;
+      has_tendon = has_tendon || in_tendon;
+      has_muscle = has_muscle || in_muscle;
+      changes += in_tendon && !was ? 1 : 0;
+      was = in_tendon;
+    }
+    both += has_tendon && has_muscle ? 1 : 0;
+    tongues = std::max(tongues, changes);
+  }
+  EXPECT_GT(both, 80) << "muscle and tendon lie beside each other for 40 mm and more";
+  EXPECT_GE(tongues, 3) << "slips of tendon between bundles";
+}
+
+TEST(BundledJoints, BursaIsAtMostOneMillimetreThickWithFatOnBothSides) {
+  const std::vector<Solid> solids = make_shoulder({});
+  const Field bursa = find_solid(solids, "subacromial_bursa");
+  const Field fat = find_solid(solids, "peribursal_fat");
+  const Field tendon = find_solid(solids, "supraspinatus_tendon");
+  for (double degrees = 10; degrees <= 55; degrees += 5) {
+    const Vec3 out = ScapularFrame::outward(degrees);
+    const double thickness = length_inside(bursa, out);
+    EXPECT_GT(thickness, 0.6e-3) << degrees;
+    EXPECT_LT(thickness, 1e-3) << degrees;
+    EXPECT_GT(last_inside(fat, out) - last_inside(bursa, out), 0.4e-3) << degrees;
+    EXPECT_GT(last_inside(bursa, out) - thickness - last_inside(tendon, out), 0.3e-3) << degrees;
+  }
+}
+
+// [Groove2024] 3.8 to 6.3 mm deep; [Iannotti1992] the head's top 8 +- 3.2 mm
+// above the greater tuberosity.
+TEST(BundledJoints, ShoulderHasTheGrooveAndTheTuberosityOfAnAdults) {
+  const Field bone = make_humerus({});
+  const Vec3 groove = Vec3(-17.2, -20, 0).normalized();
+  const auto radius = [&](double degrees) {
+    const Vec3 out = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitZ()) * groove;
+    double r = 0;
+    for (double at = 15e-3; at < 40e-3; at += 0.02e-3)
+      if (bone(at * out) < 0) r = at;
+    return r;
+  };
+  double lateral = 0;
+  double medial = 0;
+  for (double degrees = 2; degrees < 24; degrees += 0.5) {
+    lateral = std::max(lateral, radius(degrees));
+    medial = std::max(medial, radius(-degrees));
+  }
+  const double depth = 1e3 * (std::min(lateral, medial) - radius(0));
+  EXPECT_GT(depth, 3.8);
+  EXPECT_LT(depth, 6.3);
+  const ScapularFrame frame(24e-3);
+  double top = 0;
+  for (double z = 0; z < 24e-3; z += 0.02e-3)
+    if (bone(frame.at(-26, 2, 0) + Vec3(0, 0, z)) < 0) top = z;
+  EXPECT_NEAR(24 - 1e3 * top, 8, 3.2 + 1);
 }
 
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {

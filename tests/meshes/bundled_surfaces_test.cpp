@@ -67,8 +67,10 @@ TEST(BundledSurfaces, EachLiesOnTheGeneratorsSolid) {
           (b.mesh.vertices[t[0]] + b.mesh.vertices[t[1]] + b.mesh.vertices[t[2]]) / 3;
       worst_middle = std::max(worst_middle, std::abs(b.solid.field(middle)));
     }
-    EXPECT_LT(worst_corner, 0.3 * b.solid.facet_distance) << b.file;
-    EXPECT_LT(worst_middle, 3 * b.solid.facet_distance) << b.file;
+    // The field of a ribbon jumps by as much where the nearest of its spans changes.
+    constexpr double kJump = 0.14e-3;
+    EXPECT_LT(worst_corner, std::max(0.3 * b.solid.facet_distance, kJump)) << b.file;
+    EXPECT_LT(worst_middle, 5 * b.solid.facet_distance) << b.file;  // creases of unions
   }
 }
 
@@ -106,7 +108,8 @@ TEST(BundledSurfaces, ShoulderHasTheSizeOfAnAdults) {
   EXPECT_NEAR(volume_cm3("supraspinatus.ply"), 27, 6);
   EXPECT_NEAR(volume_cm3("subscapularis.ply"), 50, 20);
   EXPECT_NEAR(volume_cm3("deltoid.ply"), 280, 80);
-  EXPECT_NEAR(volume_cm3("subacromial_bursa.ply"), 5.5, 1.5);
+  EXPECT_NEAR(volume_cm3("supraspinatus_tendon.ply"), 8, 2);  // with what bone takes of it
+  EXPECT_NEAR(volume_cm3("subacromial_bursa.ply"), 2.3, 0.5);
 }
 
 TEST(BundledSurfaces, SimpleShouldersLayersHaveTheirThicknessEverywhere) {

@@ -116,5 +116,26 @@ TEST(Sweep, PlateIsTheDistanceToItsTriangleLessItsRadius) {
   EXPECT_NEAR(plate(Vec3(1, 1, 0)), std::sqrt(0.5) - 0.1, 1e-12);
 }
 
+TEST(Field, RibbonOfAHigherPowerKeepsItsThicknessTowardItsEdges) {
+  const std::vector<RibbonStation> stations{{Vec3(-1, 0, 0), Vec3::UnitZ(), 0.4, 0.1},
+                                            {Vec3(1, 0, 0), Vec3::UnitZ(), 0.4, 0.1}};
+  const Field ellipse = make_ribbon(stations);
+  const Field band = make_ribbon(stations, 4);
+  for (const Field& field : {ellipse, band}) {
+    EXPECT_NEAR(field(Vec3(0, 0.4, 0)), 0, 1e-12);
+    EXPECT_NEAR(field(Vec3(0, 0, 0.1)), 0, 1e-12);
+  }
+  const Vec3 corner(0, 0.3, 0.08);
+  EXPECT_GT(ellipse(corner), 0);
+  EXPECT_LT(band(corner), 0);
+}
+
+TEST(Field, FarBesideAThinRibbonTheValueIsNoLessThanTheDistanceToItsBox) {
+  const Field thin = make_ribbon(
+      {{Vec3(-1, 0, 0), Vec3::UnitZ(), 0.5, 0.01}, {Vec3(1, 0, 0), Vec3::UnitZ(), 0.5, 0.01}});
+  EXPECT_GE(thin(Vec3(0, 1.5, 0.05)), 1 - 1e-12);
+  EXPECT_LE(thin(Vec3(0, 1.5, 0.05)), 1.05);
+}
+
 }  // namespace
 }  // namespace artus
