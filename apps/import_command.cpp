@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "artus/detail/anatomy/body/joint_path.h"
+#include "artus/detail/anatomy/import/atlas/known_joint.h"
 #include "artus/detail/anatomy/import/import_files.h"
-#include "artus/detail/anatomy/import/known_joint.h"
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/core/text_file.h"

@@ -8,8 +8,8 @@
 #include "artus/detail/apps/bridge_command.h"
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/hands_command.h"
+#include "artus/detail/apps/options/command.h"
 #include "artus/detail/apps/options/old_names.h"
-#include "artus/detail/apps/options/program.h"
 #include "artus/detail/apps/validate_command.h"
 #include "artus/detail/core/known_names.h"
 

@@ -2,7 +2,7 @@
 #include <opencv2/core.hpp>
 
 #include "artus/detail/apps/hands/hands_commands.h"
-#include "artus/detail/apps/options/program.h"
+#include "artus/detail/apps/options/command.h"
 
 int main(int argc, char** argv) {
   return artus::run_program([&] {

@@ -2,8 +2,10 @@
 #include "artus/detail/apps/options/command.h"
 
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <locale>
 #include <sstream>
@@ -15,6 +17,7 @@
 
 #include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/body/joint_path.h"
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/soft/solver/pose_joint.h"
 
 namespace artus {
@@ -142,6 +145,24 @@ Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
 
 nlohmann::json to_json_mm(const Vec3& p) {
   return {p.x() * 1e3, p.y() * 1e3, p.z() * 1e3};
+}
+
+int run_program(const std::function<ExitCode()>& work) noexcept {
+  std::setlocale(LC_ALL, "C");
+  try {
+    return static_cast<int>(work());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "artus: %s\n", plain_reason(e.what()).c_str());
+  } catch (...) {
+    std::fprintf(stderr, "artus: an unknown failure stopped the program\n");
+  }
+  return static_cast<int>(ExitCode::failed);
+}
+
+ExitCode run_commands(Command& app, int argc, const char* const* argv, const ExitCode& code) {
+  int mistake = 0;  // CLI11's own many codes become one
+  if (!app.parse(argc, argv, mistake)) return mistake == 0 ? ExitCode::ok : ExitCode::usage;
+  return code;
 }
 
 }  // namespace artus

@@ -66,4 +66,12 @@ void add_joint_options(Command* command, JointOptions& options);
 [[nodiscard]] FlagCheck number_in(double low, double high);
 [[nodiscard]] FlagCheck whole_number_in(std::int64_t low, std::int64_t high);
 
+/// What every program does around its work: numbers with a point whatever the user's language, and
+/// a failure that nothing caught is told in one line. Returns what the process returns.
+[[nodiscard]] int run_program(const std::function<ExitCode()>& work) noexcept;
+
+/// Parses the line and runs the chosen command, which keeps its result in `code`.
+[[nodiscard]] ExitCode run_commands(Command& app, int argc, const char* const* argv,
+                                    const ExitCode& code);
+
 }  // namespace artus

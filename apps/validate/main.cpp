@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/apps/options/program.h"
+#include "artus/detail/apps/options/command.h"
 #include "artus/detail/apps/validate/validation.h"
 
 int main(int argc, char** argv) {

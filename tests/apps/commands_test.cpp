@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/apps/options/command.h"
 #include "artus/detail/apps/options/old_names.h"
-#include "artus/detail/apps/options/program.h"
 #include "tests/apps/run_tool.h"
 #include "tests/support/temporary_folder.h"
 

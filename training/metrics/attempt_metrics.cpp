@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "artus/detail/anatomy/body/find_region.h"
-#include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/training/metrics/placement.h"
 #include "artus/detail/training/metrics/smoothness.h"
@@ -320,20 +318,6 @@ void put_forces(Sheet& sheet, const AttemptView& view) {
   }
 }
 
-/// By region: whether liquid in it is in the target's place, as all regions of a space are one.
-std::vector<bool> place_of_target(const AttemptView& view) {
-  const auto& target = view.options.goals.target;
-  const CompiledJoint& joint = view.scene.joint();
-  std::vector<bool> in(joint.regions.size(), false);
-  if (!target || !target->body) return in;
-  const auto region = find_region(joint, target->name);
-  const auto spaces = make_joint_spaces(joint);
-  if (!region || !spaces) return in;
-  for (std::size_t r = 0; r < in.size(); ++r)
-    in[r] = spaces->of_region[r] == spaces->of_region[*region];
-  return in;
-}
-
 void put_doses(Sheet& sheet, const AttemptView& view) {
   const auto& doses = view.measures.doses;
   const auto& target = view.options.goals.target;
@@ -343,7 +327,7 @@ void put_doses(Sheet& sheet, const AttemptView& view) {
   };
   double off = 0;
   double in_target = 0;
-  const std::vector<bool> target_place = place_of_target(view);
+  const std::vector<bool> target_place = place_of(view.options.goals, view.scene.joint());
   std::vector<double> by_region(view.scene.joint().regions.size());
   for (const Dose& dose : doses) {
     if (dose.region < by_region.size()) by_region[dose.region] += dose.volume;

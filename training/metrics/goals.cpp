@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/anatomy/body/space.h"
+
 namespace artus {
 namespace {
 
@@ -21,6 +24,17 @@ double distance_to(const Target& target, const Vec3& p_J) noexcept {
   if (target.point) return (p_J - *target.point).norm();
   if (target.body == nullptr) return 0;
   return std::max(0.0, target.body->signed_distance_to_skin(p_J, kFar));
+}
+
+std::vector<bool> place_of(const Goals& goals, const CompiledJoint& joint) {
+  std::vector<bool> in(joint.regions.size(), false);
+  if (!goals.target || !goals.target->body) return in;
+  const auto region = find_region(joint, goals.target->name);
+  const auto spaces = make_joint_spaces(joint);
+  if (!region || !spaces) return in;
+  for (std::size_t r = 0; r < in.size(); ++r)
+    in[r] = spaces->of_region[r] == spaces->of_region[*region];
+  return in;
 }
 
 Intrusion find_intrusion(const AvoidZone& zone, std::span<const CoursePoint> course) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A joint whose surfaces are an atlas's, found by number, name and place in files as they come.
-#include "artus/detail/anatomy/import/known_joint.h"
+#include "artus/detail/anatomy/import/atlas/known_joint.h"
 
 #include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/anatomy/import/atlas_frame.h"
+#include "artus/detail/anatomy/import/atlas/atlas_frame.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"

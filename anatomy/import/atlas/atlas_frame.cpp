@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/import/atlas_frame.h"
+#include "artus/detail/anatomy/import/atlas/atlas_frame.h"
 
 #include <algorithm>
 #include <array>

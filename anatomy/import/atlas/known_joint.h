@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/anatomy/import/atlas_frame.h"
+#include "artus/detail/anatomy/import/atlas/atlas_frame.h"
 #include "artus/detail/anatomy/import/scene_parts.h"
 #include "artus/detail/core/progress.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/import/known_joint.h"
+#include "artus/detail/anatomy/import/atlas/known_joint.h"
 
 #include <algorithm>
 #include <map>
