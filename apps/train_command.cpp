@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/trainer/flow.h"
 #include "artus/detail/trainer/hands_pages.h"
+#include "artus/detail/trainer/teacher_server.h"
 #include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
@@ -31,6 +33,7 @@ struct TrainCommandOptions {
   TrainOptions train;
   std::string hands;          // webcam, a file or a folder: the kit's camera
   std::filesystem::path kit;  // its file
+  std::string teacher;        // where a teacher's browser can look on
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -149,6 +152,19 @@ Result<AttemptSetup> setup_of(const SessionOptions& options, const TrackerInput&
   return setup;
 }
 
+/// Where --teacher says, told on stderr; null without it.
+Result<std::unique_ptr<TeacherServer>> open_teacher(const TrainCommandOptions& options,
+                                                    TeacherBoard& board) {
+  if (options.teacher.empty()) return std::unique_ptr<TeacherServer>();
+  const auto where = igtl::parse_address(options.teacher, "--teacher");
+  ARTUS_TRY(where);
+  auto server =
+      TeacherServer::open(board, {where->address, where->port, "", language_of(options.language)});
+  ARTUS_TRY(server);
+  std::fprintf(stderr, "a teacher can look on at %s\n", (*server)->link().c_str());
+  return server;
+}
+
 Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(take_places(options));
   PageScript script;
@@ -200,8 +216,12 @@ Result<void> train(TrainCommandOptions options) {
                               const Progress& progress) {
     return load_scene(scenario, joint, progress);
   };
-  const TrainContext room{screen->get(),   &*desk,  &*setup,     load,
-                          &options.window, &script, link->get(), &turns};
+  TeacherBoard board;
+  const auto teacher = open_teacher(options, board);
+  ARTUS_TRY(teacher);
+  const TrainContext room{screen->get(), &*desk,          &*setup,
+                          load,          &options.window, &script,
+                          link->get(),   &turns,          *teacher ? &board : nullptr};
   return run_training(options.train, room, std::move(pages), std::move(*scenarios), remote);
 }
 
@@ -237,6 +257,8 @@ void add_train_command(Command& app, ExitCode& code) {
       "  artus train --records school.db --cohort 2026 --input shared-memory --device touch\n"
       "  artus train gel-find --person grey-heron-42\n"
       "  artus train mine.toml --igtl 18944 --input igtl\n"
+      "  artus train --teacher 8090                                   a teacher's browser looks "
+      "on\n"
       "  artus train --hands webcam                                   a webcam and printed "
       "markers");
   command->add_option("scenario", options->train.scenario,
@@ -260,6 +282,10 @@ void add_train_command(Command& app, ExitCode& code) {
                       "a folder of pictures");
   command->add_option("--kit", options->kit,
                       "file of the kit's measures (default: hands.toml, beside the records)");
+  command->add_option("--teacher", options->teacher,
+                      "[ADDRESS:]PORT of a page on which a teacher's browser follows the attempt, "
+                      "freezes, points, switches aids and says something; without an address this "
+                      "machine alone, with one whoever has the token that is printed; port 0: any");
   add_device_option(command, session.device);
   add_prefix_option(command, session.prefix);
   command->add_option("--haptic-cpu", session.haptic_cpu, "processor of the haptic thread; -1: any")

@@ -28,7 +28,8 @@ img{height:auto}.rows{overflow-x:auto}.words{text-align:left;color:#555}.clip di
 animation:turn 4s step-end infinite}@keyframes turn{0%{opacity:1}12.5%,100%{opacity:0}}
 @media(max-width:40em){body{margin:.6em auto;padding:0 .6em}h1{font-size:1.3em}.card{display:block;
 padding:.2em .6em .5em;margin:.4em 0}figure{margin:.4em 0}th,td{padding:.2em .4em}dl{display:block}
-.told thead{display:none}.told tr{display:flex;flex-wrap:wrap;border-bottom:1px solid #e3e3e3}.told
+.told thead{display:none}.told td[data-name]::before{content:attr(data-name) ": ";color:#777}
+.told td:first-child{white-space:normal;font-weight:bold;flex-basis:100%}.told tr{display:flex;flex-wrap:wrap;border-bottom:1px solid #e3e3e3}.told
 td{border:0}.told .words{flex-basis:100%}}
 @media(prefers-reduced-motion:reduce){.clip div{grid-template-columns:1fr 1fr}.clip img{grid-area:auto;
 opacity:1;animation:none}.clip img:nth-child(even){display:none}}
@@ -126,9 +127,13 @@ void HtmlPage::table(const std::vector<Column>& columns,
   body_ += "</tr></thead><tbody>\n";
   for (const auto& row : rows) {
     body_ += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i)
-      body_ +=
-          (columns[i].words ? "<td class=\"words\">" : "<td>") + escape_markup(row[i]) + "</td>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      // Where the head is hidden each cell says what it is, but for the row's own name.
+      const bool says = told && i > 0 && !columns[i].name.empty();
+      body_ += std::string("<td") + (columns[i].words ? " class=\"words\"" : "") +
+               (says ? " data-name=\"" + escape_markup(columns[i].name) + "\"" : "") + ">" +
+               escape_markup(row[i]) + "</td>";
+    }
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table></div>\n<dl>\n";

@@ -334,7 +334,7 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
   page.heading(translate(page, "Learners"));
   page.table(
       {{translate(page, "learner"), ""},
-       {translate(page, "scenario"), ""},
+       {translate(page, "scenario"), "", true},
        {translate(page, "attempts"), translate(page, "unfinished and aided ones, too")},
        {translate(page, "passed"), translate(page, "without aids")},
        {translate(page, "adequate at"), translate(page, "attempt at which the LC-CUSUM signals")}},

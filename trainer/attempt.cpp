@@ -33,27 +33,43 @@ Result<SessionParams> params_of(const TrainContext& room, const TrainTask& task)
 
 /// The window while someone works; true: they said that they are done.
 Result<bool> show(const TrainContext& room, const TrainTask& task, TrainLesson& lesson,
-                  Session& session, HandDevice* hand) {
+                  Session& session, HandDevice* hand, TrainOutcome& out) {
   WindowOptions window = *room.window;
   auto steps = room.script->take("attempt");
   ARTUS_TRY(steps);
   window.script = std::move(*steps);
   window.quit_after_script = room.script->given();
   window.lesson = lesson.options();
+  std::optional<TeacherFollow> teacher;
+  if (room.teacher != nullptr) {
+    teacher.emplace(*room.teacher, task.scenario, window.lesson->aids, session.params().haptic_rate,
+                    window.language);
+    window.lesson->lead = [&teacher, lead = window.lesson->lead](const LessonView& view) {
+      Lesson told = lead(view);
+      teacher->lead(view, told);
+      return told;
+    };
+  }
   window.patient = "";
   window.turn_knobs = [&room](ImageControls& controls) {
     room.turns->take(controls);
   };
   WindowReport report;
-  ARTUS_TRY(run_window(*room.screen, session, hand, first_hands(task.scenario), window, report));
+  const auto shown =
+      run_window(*room.screen, session, hand, first_hands(task.scenario), window, report);
+  if (teacher) {
+    room.teacher->tell({});
+    out.seen_by_teacher = teacher->events();
+    out.record.aided = out.record.aided || teacher->aided();
+  }
+  ARTUS_TRY(shown);
   return report.finished;
 }
 
-/// The session from its start to its end; what was measured rests then. `unrecorded`: why its
-/// recording is not whole.
+/// The session from its start to its end; what was measured rests then. Notes why its recording is
+/// not whole, and what a teacher did.
 Result<bool> work(const TrainContext& room, const TrainTask& task, const SessionParams& params,
-                  LiveAttempt& meter, const std::filesystem::path& recording,
-                  std::string& unrecorded) {
+                  LiveAttempt& meter, TrainOutcome& out) {
   HandDevice* hand = nullptr;
   std::unique_ptr<InputDevice> device;
   if (room.setup->make_device) {
@@ -65,26 +81,33 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
     hand = own.get();
     device = std::move(own);
   }
+  if (task.led != LedHand::none)
+    device =
+        std::make_unique<LedHands>(std::move(device), task.led, task.way, 1 / params.haptic_rate);
   Session::Options options;
   options.haptic_options.cpu = room.setup->haptic_cpu;
-  options.recording = recording;
+  options.recording = std::filesystem::path(out.record.folder) / "session.rec";
   options.share_images = room.setup->share_images;
   options.image_segment_prefix = room.setup->prefix;
   options.observer = &meter;
   options.extra_scene_holders = 1;
-  if (room.link != nullptr)
+  if (room.link != nullptr || room.teacher != nullptr)
     options.on_image = [&room](const ImageSnapshot& image) {
-      room.link->take_image(image);
+      if (room.link != nullptr) room.link->take_image(image);
+      if (room.teacher != nullptr) room.teacher->take_image(image);
     };
   TrainLesson lesson(task.scenario, task.scene, params, task.asked, room.window->language);
+  lesson.name_keys(task.keys);
+  lesson.leave_hand(task.led);
+  lesson.look_at_pictures([&meter] { return meter.shown_db(); });
   auto session = Session::start(task.scene, params, std::move(device), options);
   ARTUS_TRY(session);
   if (room.link != nullptr) room.link->attach(session->get());
-  auto finished = show(room, task, lesson, **session, hand);
+  auto finished = show(room, task, lesson, **session, hand, out);
   if (room.link != nullptr) room.link->attach(nullptr);
   (*session)->stop();
   if (const auto recorded = (*session)->recorded(); !recorded)
-    unrecorded = recorded.error().message;
+    out.unrecorded = recorded.error().message;
   return finished;
 }
 
@@ -121,7 +144,7 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(record);
   out.record = *record;
   const std::filesystem::path folder = out.record.folder;
-  const auto finished = work(room, task, *params, meter, folder / "session.rec", out.unrecorded);
+  const auto finished = work(room, task, *params, meter, out);
   ARTUS_TRY(finished);
   out.finished = *finished;
   if (!out.finished) return out;
@@ -132,6 +155,9 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
     if (out.unrecorded.empty()) out.unrecorded = recording.error().message;
   }
   out.played.measures = meter.measure();
+  add_asked(task.scenario, task.asked, out.played.measures.metrics);
+  auto& events = out.played.measures.events;
+  events.insert(events.end(), out.seen_by_teacher.begin(), out.seen_by_teacher.end());
   for (const std::string& step : task.asked)
     out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
   return out;
@@ -165,6 +191,15 @@ Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,
       assess(out.played.recording, task.scene, std::move(*options), SightSource::recorded);
   ARTUS_TRY(measures);
   out.played.measures = std::move(*measures);
+  auto events = desk.events(record);
+  ARTUS_TRY(events);
+  std::set<std::string> asked;
+  for (AttemptEvent& event : *events) {
+    if (event.kind.rfind("ask:", 0) == 0) asked.insert(event.kind);
+    if (event.kind == "remark" || event.kind.rfind("teacher:", 0) == 0)
+      out.seen_by_teacher.push_back(std::move(event));
+  }
+  add_asked(task.scenario, asked, out.played.measures.metrics);
   ARTUS_TRY(judge_outcome(desk, task.scenario, out));
   return out;
 }

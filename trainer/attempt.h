@@ -6,11 +6,14 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "artus/detail/exchange/session_link.h"
 #include "artus/detail/trainer/bodies.h"
 #include "artus/detail/trainer/desk.h"
+#include "artus/detail/trainer/led_hands.h"
 #include "artus/detail/trainer/remote_controls.h"
+#include "artus/detail/trainer/teacher_board.h"
 #include "artus/detail/training/feedback.h"
 #include "artus/detail/training/player.h"
 #include "artus/detail/viewer/input/screen.h"
@@ -51,6 +54,7 @@ struct TrainContext {
   PageScript* script = nullptr;
   SessionLink* link = nullptr;  ///< to other programs; null: none may listen
   RemoteTurns* turns = nullptr;
+  TeacherBoard* teacher = nullptr;  ///< who looks on; null: nobody can
 };
 
 /// An attempt that someone is about to make.
@@ -58,7 +62,10 @@ struct TrainTask {
   std::string person;
   Scenario scenario;  ///< with its aids as they are for this person
   std::shared_ptr<const Scene> scene;
-  std::set<std::string> asked;  ///< steps that were answered before
+  std::set<std::string> asked;    ///< steps that were answered before
+  KeyMap keys = KeyMap();         ///< that the window tells of
+  LedHand led = LedHand::none;    ///< the hand that goes a way of its own
+  std::vector<LedPose> way = {};  ///< which
 };
 
 /// What came of it.
@@ -66,9 +73,10 @@ struct TrainOutcome {
   bool finished = false;  ///< false: the window was closed; the records show it as unfinished
   AttemptRecord record;
   PlayedAttempt played;
-  Feedback feedback;             ///< with what this person did before
-  std::filesystem::path report;  ///< the page that was written
-  std::string unrecorded;        ///< why the recording is not whole; empty: it is
+  Feedback feedback;                          ///< with what this person did before
+  std::filesystem::path report;               ///< the page that was written
+  std::string unrecorded;                     ///< why the recording is not whole; empty: it is
+  std::vector<AttemptEvent> seen_by_teacher;  ///< remarks and what else somebody did who looked on
 };
 
 /// Lets a person do a task in the window; what was measured meanwhile is in the outcome, whatever

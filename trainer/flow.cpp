@@ -2,13 +2,12 @@
 #include "artus/detail/trainer/flow.h"
 
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "artus/detail/reports/mark_words.h"
+#include "artus/detail/trainer/learn_flow.h"
 #include "artus/detail/trainer/pages.h"
 #include "artus/detail/trainer/review.h"
 #include "artus/detail/trainer/trouble.h"
@@ -25,8 +24,8 @@ class TrainFlow {
       : options_(options),
         room_(room),
         remote_(&remote),
-        page_options_(std::move(pages)),
-        language_(page_options_.language),
+        show_(*room.screen, std::move(pages)),
+        language_(show_.options().language),
         scenarios_(std::move(scenarios)),
         bodies_(options.joint, room.load_scene) {}
 
@@ -43,7 +42,7 @@ class TrainFlow {
   }
 
  private:
-  enum class Next { who, what, earlier, briefing, attempt, keep, end, leave };
+  enum class Next { who, what, earlier, briefing, learn, attempt, keep, end, leave };
 
   /// A page in place of what failed: the same again, another task, or out, with the failure as the
   /// program's. What the command line or a script says wrongly ends the program.
@@ -73,6 +72,8 @@ class TrainFlow {
         return earlier();
       case Next::briefing:
         return brief();
+      case Next::learn:
+        return learn();
       case Next::attempt:
         return attempt();
       case Next::keep:
@@ -85,10 +86,7 @@ class TrainFlow {
     return Next::leave;
   }
 
-  Result<PageAnswer> show(Page page) {
-    if (!pages_) pages_ = std::make_unique<PageWindow>(*room_.screen, page_options_);
-    return pages_->show(std::move(page));
-  }
+  Result<PageAnswer> show(Page page) { return show_.show(std::move(page)); }
 
   /// A page on which another program may choose the task, too: then it is done.
   Result<PageAnswer> offer(Page page) {
@@ -167,14 +165,31 @@ class TrainFlow {
       ARTUS_TRY(tally);
       tasks.push_back({scenario, *tally});
     }
+    unlock_levels(tasks);
     const auto answer = offer(make_what_page(tasks, person_, bodies_, at_, language_));
     ARTUS_TRY(answer);
     if (answer->kind == PageAnswer::Kind::done) return take_remote();
     if (answer->kind == PageAnswer::Kind::back) return Next::who;
     if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
     if (answer->choice == tasks.size()) return Next::earlier;
-    choose(tasks[answer->choice].scenario);
+    return tasks[answer->choice].open ? begin_task(tasks[answer->choice].scenario)
+                                      : locked(tasks, answer->choice);
+  }
+
+  Result<Next> begin_task(const Scenario& scenario) {
+    choose(scenario);
     return Next::briefing;
+  }
+
+  /// What opens a locked task, or the task all the same.
+  Result<Next> locked(const std::vector<OfferedTask>& tasks, std::size_t wanted) {
+    const Scenario& opener = tasks[opener_of(tasks, wanted)].scenario;
+    const auto answer = show(make_locked_page(tasks[wanted].scenario, opener, language_));
+    ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::back) return Next::what;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    const bool anyway = static_cast<AfterLocked>(answer->choice) == AfterLocked::all_the_same;
+    return begin_task(anyway ? tasks[wanted].scenario : opener);
   }
 
   /// Title of a scenario by its name; the name of one that is not offered.
@@ -202,29 +217,13 @@ class TrainFlow {
     const auto there = prepare();
     ARTUS_TRY(there);
     if (*there != Prepared::there) return *there == Prepared::closed ? Next::leave : Next::what;
-    task_ = {person_, scenario_, scene_, {}};
-    auto outcome = meanwhile(msgid("The attempt is being read ..."),
-                             [&] { return read_attempt(*room_.desk, task_, record); });
+    task_ = {person_, scenario_, scene_, {}, show_.options().keys, LedHand::none, {}};
+    auto outcome = show_.meanwhile(msgid("The attempt is being read ..."),
+                                   [&] { return read_attempt(*room_.desk, task_, record); });
     ARTUS_TRY(outcome);
     if (!*outcome) return Next::leave;
     outcome_ = std::move(**outcome);
     return Next::end;
-  }
-
-  /// What a thread of its own makes while a page asks to wait; empty: the window was closed.
-  template <class Make>
-  auto meanwhile(const char* what, Make make)
-      -> Result<std::optional<typename decltype(make())::value_type>> {
-    auto making = std::async(std::launch::async, make);
-    const auto ready = [&making] {
-      return making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    };
-    const auto waited = show(make_busy_page(what, ready, language_));
-    ARTUS_TRY(waited);
-    auto made = making.get();
-    ARTUS_TRY(made);
-    if (waited->kind != PageAnswer::Kind::done) return std::nullopt;
-    return std::optional(std::move(*made));
   }
 
   enum class Prepared { there, given_up, closed };
@@ -260,7 +259,7 @@ class TrainFlow {
     std::size_t at = 0;
     for (;;) {
       Page page = make_briefing_page(offered, asked_, scene_ == nullptr ? "" : scene_->joint().side,
-                                     bodies_.picture(scenario_), page_options_.keys, language_);
+                                     bodies_.picture(scenario_), show_.options().keys, language_);
       page.at = at;
       page.refresh = [this](Page& shown) {
         bodies_.prepare(scenario_);
@@ -278,11 +277,19 @@ class TrainFlow {
       ARTUS_TRY(there);
       if (*there == Prepared::closed) return Next::leave;
       if (*there == Prepared::given_up) continue;
+      if (choice.kind == BriefingChoice::Kind::learn) {
+        learn_.begin();
+        return Next::learn;
+      }
       if (choice.kind != BriefingChoice::Kind::ask) {
         task_ = {
             person_,
             with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
-            scene_, asked_};
+            scene_,
+            asked_,
+            show_.options().keys,
+            LedHand::none,
+            {}};
         return Next::attempt;
       }
       asked_.insert(choice.step);
@@ -290,8 +297,26 @@ class TrainFlow {
     }
   }
 
+  /// What is taught of a task before it is judged.
+  Result<Next> learn() {
+    task_ = {person_, scenario_, scene_, asked_, show_.options().keys, LedHand::none, {}};
+    const auto after = learn_.step(task_);
+    ARTUS_TRY(after);
+    switch (*after) {
+      case LearnFlow::After::again:
+        return Next::learn;
+      case LearnFlow::After::briefing:
+        return Next::briefing;
+      case LearnFlow::After::attempt:
+        return Next::attempt;
+      case LearnFlow::After::leave:
+        break;
+    }
+    return Next::leave;
+  }
+
   Result<Next> attempt() {
-    pages_.reset();  // the session's window takes the screen
+    show_.leave_screen();  // the session's window takes the screen
     auto outcome = run_attempt(room_, task_);
     ARTUS_TRY(outcome);
     outcome_ = std::move(*outcome);
@@ -300,12 +325,14 @@ class TrainFlow {
 
   /// What was measured is stored, as often as it takes.
   Result<Next> keep() {
-    const auto kept = meanwhile(msgid("The attempt is being stored ..."), [this]() -> Result<bool> {
-      ARTUS_TRY(keep_attempt(room_, task_, outcome_));
-      return true;
-    });
+    const auto kept =
+        show_.meanwhile(msgid("The attempt is being stored ..."), [this]() -> Result<bool> {
+          ARTUS_TRY(keep_attempt(room_, task_, outcome_));
+          return true;
+        });
     ARTUS_TRY(kept);
-    return *kept ? Next::end : Next::leave;
+    if (!*kept) return Next::leave;
+    return task_.led == LedHand::none ? Next::end : Next::learn;
   }
 
   /// The one that the feedback names; else the first above this one that was not passed, when this
@@ -327,12 +354,12 @@ class TrainFlow {
       return fail(ErrorCode::unreadable,
                   "there is no recording of this attempt: " + outcome_.unrecorded,
                   outcome_.record.folder);
-    const auto made = meanwhile(msgid("The review is being prepared ..."),
-                                [this] { return make_review(task_, outcome_, language_); });
+    const auto made = show_.meanwhile(msgid("The review is being prepared ..."),
+                                      [this] { return make_review(task_, outcome_, language_); });
     ARTUS_TRY(made);
     if (!*made) return Next::leave;
-    pages_.reset();
-    const auto back = run_review(*room_.screen, page_options_, **made);
+    show_.leave_screen();
+    const auto back = run_review(*room_.screen, show_.options(), **made);
     ARTUS_TRY(back);
     return *back ? Next::end : Next::leave;
   }
@@ -375,11 +402,11 @@ class TrainFlow {
   const TrainOptions& options_;
   TrainContext room_;
   RemoteScenario* remote_;
-  PageOptions page_options_;
+  PageShow show_;
+  LearnFlow learn_{show_};
   Language language_;
   std::vector<Scenario> scenarios_;
   TrainBodies bodies_;
-  std::unique_ptr<PageWindow> pages_;
   std::string person_;
   Scenario scenario_;
   std::size_t at_ = 0;  // of scenarios_, the one that was chosen last

@@ -17,10 +17,12 @@ struct StepName {
   const char* step;
   const char* words;
 };
-constexpr std::array<StepName, 9> kSteps{{
+constexpr std::array<StepName, 11> kSteps{{
     {"ask:side", msgid("asked which side")},
     {"ask:allergy", msgid("asked about allergies")},
     {"ask:consent", msgid("asked for consent")},
+    {"ask:anticoagulation", msgid("asked about blood thinners")},
+    {"ask:infection", msgid("asked about fever and infections")},
     {"auto:doppler", msgid("looked for vessels (colour)")},
     {"auto:entry", msgid("needle in")},
     {"auto:tip_seen", msgid("tip seen")},
@@ -82,7 +84,8 @@ void TrainLesson::follow(const LessonView& view) {
   if (!inside && view.doppler && done_.count("auto:entry") == 0) done_.insert("auto:doppler");
   if (inside) done_.insert("auto:entry");
   const Pose X_JN = to_pose(view.now.X_JN);
-  const TipSight sight = finder_.look(*scene_, to_pose(view.now.X_JP), X_JN);
+  TipSight sight = finder_.look(*scene_, to_pose(view.now.X_JP), X_JN);
+  if (shown_db_) sight.shown_db = shown_db_();
   if (inside && sight.seen()) done_.insert("auto:tip_seen");
   beam_on_tip_ = sight.loss != SightLoss::off_plane;
   if (inside && (X_JN.translation() - scenario_.target.point).norm() <= reach_of(scenario_))
@@ -145,8 +148,42 @@ Lesson TrainLesson::lead(const LessonView& view) {
     lesson.steps.push_back({step_words(language_, step), done_.count(step) != 0,
                             !of_truth || scenario_.level <= kToldAtOnce});
   }
+  if (scenario_.find.empty() && (scenario_.level <= kToldAtOnce || scenario_.aided()))
+    lesson.next = next_words(view);
   if (!scenario_.find.empty()) lead_search(time, lesson);
   return lesson;
+}
+
+/// From where the needle is in place to the end: what is next. Empty: the guide says it.
+std::string TrainLesson::next_words(const LessonView& view) const {
+  const auto done = [this](const char* step) {
+    return done_.count(step) != 0;
+  };
+  const auto key = [this](Action action) {
+    return keys_.said_key(action, language_);
+  };
+  if (led_ == LedHand::needle)
+    return fill(translate(language_, "{} takes the probe: keep the needle's tip in the picture"),
+                {key(Action::take_probe)});
+  if (!view.needle.inside)
+    return done("auto:withdrawn")
+               ? fill(translate(language_, "The needle is out: {} ends it"), {key(Action::finish)})
+               : "";
+  if (!done("auto:placed")) return "";
+  const double volume = scenario_.syringe.volume;
+  const double given = view.now.feedback.plunger.given;
+  if (volume > 0 && given <= 0)
+    return fill(translate(language_,
+                          "In place: {} puts the thumb on the plunger; draw back for 3 s, then "
+                          "inject slowly"),
+                {key(Action::take_plunger)});
+  if (volume > 0 && !done("auto:injected"))
+    return fill(translate(language_, "Inject on, the tip in sight: {} of {} ml"),
+                {number(language_, given / kCubicCentimetre, 1),
+                 number(language_, volume / kCubicCentimetre, 1)});
+  return fill(translate(language_, volume > 0 ? msgid("Injected: {} pulls the needle out")
+                                              : msgid("In place: {} pulls the needle out")),
+              {key(Action::pull)});
 }
 
 /// What is to be shown now, and what was.

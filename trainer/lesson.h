@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "artus/detail/session/hand_device.h"
+#include "artus/detail/trainer/led_hands.h"
 #include "artus/detail/training/player.h"
+#include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/words/translation.h"
 #include "artus/raycast/scene.h"
@@ -20,6 +25,17 @@ class TrainLesson {
   TrainLesson(Scenario scenario, std::shared_ptr<const Scene> scene, const SessionParams& params,
               std::set<std::string> asked, Language language);
 
+  /// Who knows by how many dB the tip stands out in the last picture, LiveAttempt::shown_db;
+  /// without it geometry says whether the tip is seen.
+  void look_at_pictures(std::function<std::optional<double>()> shown_db) {
+    shown_db_ = std::move(shown_db);
+  }
+
+  /// The keys that what is next names.
+  void name_keys(const KeyMap& keys) { keys_ = keys; }
+  /// A hand goes its own way: what is next is said of the other.
+  void leave_hand(LedHand led) { led_ = led; }
+
   [[nodiscard]] Lesson lead(const LessonView& view);
   [[nodiscard]] LessonOptions options();
   /// s after which the window ends by itself.
@@ -27,6 +43,7 @@ class TrainLesson {
 
  private:
   void follow(const LessonView& view);
+  [[nodiscard]] std::string next_words(const LessonView& view) const;
   void lead_search(double time, Lesson& lesson) const;
   void listen(const LessonView& view, double time);
   void say(const char* what, double time, bool hurts);
@@ -38,6 +55,9 @@ class TrainLesson {
   TipSightFinder finder_;
   StructureSearch search_;
   Goals goals_;
+  KeyMap keys_;
+  LedHand led_ = LedHand::none;
+  std::function<std::optional<double>()> shown_db_;
   std::set<std::string> done_;
   Language language_;
   std::uint64_t first_tick_ = 0;

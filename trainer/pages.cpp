@@ -64,9 +64,12 @@ struct Question {
   const char* step;
   const char* asked;
 };
-constexpr std::array<Question, 3> kQuestions{{{"ask:side", msgid("Ask: which side is it?")},
-                                              {"ask:allergy", msgid("Ask: any allergies?")},
-                                              {"ask:consent", msgid("Ask: do you agree to it?")}}};
+constexpr std::array<Question, 5> kQuestions{
+    {{"ask:side", msgid("Ask: which side is it?")},
+     {"ask:allergy", msgid("Ask: any allergies?")},
+     {"ask:consent", msgid("Ask: do you agree to it?")},
+     {"ask:anticoagulation", msgid("Ask: do you take blood thinners?")},
+     {"ask:infection", msgid("Ask: fever, or an infection of the skin?")}}};
 
 const Question* find_question(const std::string& step) {
   for (const Question& question : kQuestions)
@@ -76,6 +79,8 @@ const Question* find_question(const std::string& step) {
 
 const char* answer_to(const std::string& step, const std::string& side) {
   if (step == "ask:allergy") return msgid("None that I know of.");
+  if (step == "ask:anticoagulation") return msgid("No, none.");
+  if (step == "ask:infection") return msgid("No, nothing of that kind.");
   if (step == "ask:consent") return msgid("Yes, go ahead.");
   if (side == "left") return msgid("The left one, please.");
   return side == "right" ? msgid("The right one, please.") : msgid("This one.");
@@ -199,6 +204,35 @@ Page make_welcome_page(const std::string& person, Language language) {
   return page;
 }
 
+void unlock_levels(std::vector<OfferedTask>& tasks) {
+  const auto passed = [&tasks](int level) {
+    return std::any_of(tasks.begin(), tasks.end(), [level](const OfferedTask& task) {
+      return task.scenario.level == level && task.tally.passes > 0;
+    });
+  };
+  for (OfferedTask& task : tasks) {
+    int before = -1;  // the level before this one's
+    for (const OfferedTask& other : tasks)
+      if (other.scenario.level < task.scenario.level)
+        before = std::max(before, other.scenario.level);
+    bool higher = false;  // who passed a higher one needs no lower one
+    for (const OfferedTask& other : tasks)
+      higher = higher || (other.scenario.level >= task.scenario.level && other.tally.passes > 0);
+    task.open = before < 0 || passed(before) || higher || task.tally.attempts > 0;
+  }
+}
+
+std::size_t opener_of(const std::vector<OfferedTask>& tasks, std::size_t locked) {
+  std::size_t opener = 0;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    if (tasks[i].scenario.level < tasks[locked].scenario.level && tasks[i].open &&
+        (tasks[i].scenario.level > tasks[opener].scenario.level ||
+         (tasks[i].scenario.level == tasks[opener].scenario.level &&
+          tasks[opener].tally.passes > 0)))
+      opener = i;
+  return opener;
+}
+
 Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& person,
                     TrainBodies& bodies, std::size_t at, Language language) {
   Page page;
@@ -208,7 +242,8 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state = passed ? translate(language, "passed")
+    const std::string state = !task.open ? translate(language, "locked")
+                              : passed   ? translate(language, "passed")
                               : task.tally.attempts > 0
                                   ? std::to_string(whole_points(task.tally.best))
                                   : translate(language, "new");
@@ -216,7 +251,10 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
         {title_words(language, task.scenario),
          fill(translate(language, "level {}"), {std::to_string(task.scenario.level)}) + "   " +
              state,
-         passed ? Tone::good : Tone::plain, about_task(task, language), nullptr});
+         !task.open ? Tone::dim
+         : passed   ? Tone::good
+                    : Tone::plain,
+         about_task(task, language), nullptr});
   }
   if (std::any_of(tasks.begin(), tasks.end(),
                   [](const OfferedTask& task) { return task.tally.attempts > 0; }))
@@ -227,6 +265,31 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
     bodies.want(tasks[shown.at].scenario);
     shown.choices[shown.at].picture = bodies.picture(tasks[shown.at].scenario);
   };
+  return page;
+}
+
+Page make_locked_page(const Scenario& locked, const Scenario& opener, Language language) {
+  Page page;
+  page.name = "locked";
+  page.title = title_words(language, locked);
+  page.may_back = true;
+  page.lines = {
+      {fill(translate(
+                language,
+                "Level {} is locked: levels open one after the other, and you are at level {}."),
+            {std::to_string(locked.level), std::to_string(opener.level)})},
+      {translate(language, "What comes before is what this one builds on."), Tone::dim}};
+  page.choices = {
+      {fill(translate(language, "To your next task: {}"), {title_words(language, opener)}),
+       "",
+       Tone::good,
+       {},
+       nullptr},
+      {translate(language, "Begin it all the same: a teacher says so"),
+       "",
+       Tone::plain,
+       {},
+       nullptr}};
   return page;
 }
 
@@ -257,6 +320,7 @@ std::vector<BriefingChoice> briefing_choices(const Scenario& scenario) {
     if (find_question(step) != nullptr) choices.push_back({BriefingChoice::Kind::ask, step});
   if (scenario.aided()) choices.push_back({BriefingChoice::Kind::begin_aided, ""});
   choices.push_back({BriefingChoice::Kind::begin, ""});
+  if (scenario.find.empty()) choices.push_back({BriefingChoice::Kind::learn, ""});
   return choices;
 }
 
@@ -295,6 +359,9 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
     std::string beside;
     if (choice.kind == BriefingChoice::Kind::begin_aided)
       name = translate(language, "Begin with aids");
+    if (choice.kind == BriefingChoice::Kind::learn)
+      name =
+          translate(language, "Learn it first: what it looks like, the expert, one hand at a time");
     if (const Question* question = find_question(choice.step)) {
       const bool answered = asked.count(choice.step) != 0;
       name = translate(language, question->asked);
@@ -334,6 +401,10 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
     about.push_back({fill(translate(language, "Why: {}"), {in_words(fault.cause)})});
     about.push_back({fill(translate(language, "Do: {}"), {in_words(fault.mend)}), Tone::good});
   }
+  for (const AttemptEvent& event : outcome.seen_by_teacher)
+    if (event.kind == "remark")
+      about.push_back({fill(translate(language, "Teacher at {} s: {}"),
+                            {number(language, event.time, 1), event.text})});
   if (!feedback.good.empty())
     about.push_back(
         {fill(translate(language, "Well done: {}"), {in_words(feedback.good)}), Tone::good});

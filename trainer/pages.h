@@ -24,7 +24,18 @@ struct KnownLearner {
 struct OfferedTask {
   Scenario scenario;
   TrainTally tally;
+  bool open = true;  ///< its level is unlocked
 };
+/// Which tasks are open: those of the lowest level, those of a level after one of which a task was
+/// passed, and whatever was tried before. Requires: by level.
+void unlock_levels(std::vector<OfferedTask>& tasks);
+/// The task that comes before a locked one: the first of the highest open level below it that was
+/// not passed. Requires: one that is not open.
+[[nodiscard]] std::size_t opener_of(const std::vector<OfferedTask>& tasks, std::size_t locked);
+/// Why a task is locked: to `opener`, which opens it, or on all the same.
+enum class AfterLocked { opener, all_the_same };
+[[nodiscard]] Page make_locked_page(const Scenario& locked, const Scenario& opener,
+                                    Language language);
 /// What: the scenarios by level, with picture and what was done, and after them the way to earlier
 /// attempts when there are any; `at`: the one that is marked.
 [[nodiscard]] Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& person,
@@ -41,7 +52,7 @@ struct EarlierAttempt {
 
 /// What a choice of the briefing asks for.
 struct BriefingChoice {
-  enum class Kind { ask, begin_aided, begin } kind = Kind::begin;
+  enum class Kind { ask, begin_aided, begin, learn } kind = Kind::begin;
   std::string step;  ///< of ask
 };
 [[nodiscard]] std::vector<BriefingChoice> briefing_choices(const Scenario& scenario);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "artus/detail/core/units.h"
@@ -84,6 +85,29 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
                number(language, sight.contrast_db, 0)});
 }
 
+/// The first structure that was asked for and not shown is the review's target, with how far the
+/// picture was from it; nothing where the block does not say where it is.
+void show_missed(const Scenario& scenario, std::span<const Sought> sought, Language language,
+                 Review& review) {
+  const auto missed =
+      std::find_if(sought.begin(), sought.end(), [](const Sought& one) { return one.found < 0; });
+  if (missed == sought.end() || !scenario.gel) return;
+  for (const Ball& ball : scenario.gel->balls) {
+    if (ball.tissue != missed->name) continue;
+    review.target_J = ball.centre;
+    review.why = [name = clinical_name(language, ball.tissue), centre = ball.centre,
+                  language](const HapticSnapshot& state) {
+      const Vec3 p = to_pose(state.X_JP).inverse() * centre;
+      return fill(translate(language,
+                            "Not shown: {}. Its middle lies {} mm beside the picture's "
+                            "plane and {} mm from the picture's middle."),
+                  {name, number(language, std::abs(p.y()) / kMillimetre, 0),
+                   number(language, std::abs(p.x()) / kMillimetre, 0)});
+    };
+    return;
+  }
+}
+
 /// Where the picture's clock stands against the moments': the last that was there.
 class Frames {
  public:
@@ -129,17 +153,32 @@ Result<ReviewFilm> make_film(const Recording& recording,
   return film;
 }
 
-Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, Language language) {
-  const PlayedAttempt& played = outcome.played;
+Result<Review> make_run_review(const Scenario& scenario, const std::shared_ptr<const Scene>& scene,
+                               const Recording& recording, Language language) {
   Review review;
-  review.title = title_words(language, task.scenario);
-  review.scene = task.scene;
-  review.params = played.recording.head.params;
-  review.target_J = task.scenario.target.point;
-  review.in_plane = task.scenario.entry.plane == "in";
-  auto film = make_film(played.recording, task.scene);
+  review.title = title_words(language, scenario);
+  review.scene = scene;
+  review.params = recording.head.params;
+  if (scenario.find.empty()) review.target_J = scenario.target.point;
+  review.in_plane = scenario.entry.plane == "in";
+  auto film = make_film(recording, scene);
   ARTUS_TRY(film);
   review.film = std::move(*film);
+  const TipSightFinder finder(review.params.transducer, review.params.image.depth,
+                              review.params.needle_shape, review.params.image.look);
+  const ShownTips tips(recording);
+  review.why = [finder, tips, scene, language](const HapticSnapshot& state) {
+    return why_of(finder, *scene, state, tips.at(state.input.device.time_ns), language);
+  };
+  return review;
+}
+
+Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, Language language) {
+  const PlayedAttempt& played = outcome.played;
+  auto made = make_run_review(task.scenario, task.scene, played.recording, language);
+  ARTUS_TRY(made);
+  Review review = std::move(*made);
+  show_missed(task.scenario, played.measures.sought, language, review);
   const auto expert = play(task.scenario, task.scene, expert_skill(), {});
   ARTUS_TRY(expert);
   auto beside = make_film(expert->recording, task.scene);
@@ -154,12 +193,6 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
     review.faults.push_back({fault.time - begin + kSeen, feedback_words(language, fault.what),
                              feedback_words(language, fault.cause),
                              feedback_words(language, fault.mend)});
-  const TipSightFinder finder(review.params.transducer, review.params.image.depth,
-                              review.params.needle_shape, review.params.image.look);
-  const ShownTips tips(played.recording);
-  review.why = [finder, tips, scene = task.scene, language](const HapticSnapshot& state) {
-    return why_of(finder, *scene, state, tips.at(state.input.device.time_ns), language);
-  };
   return review;
 }
 

@@ -16,4 +16,10 @@ namespace artus {
 [[nodiscard]] Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome,
                                          Language language);
 
+/// A run alone, as a simulated expert's: picture, hands and forces, and what the truth says.
+/// Errors: those of the replay. Cost: that of its ticks.
+[[nodiscard]] Result<Review> make_run_review(const Scenario& scenario,
+                                             const std::shared_ptr<const Scene>& scene,
+                                             const Recording& recording, Language language);
+
 }  // namespace artus

@@ -62,8 +62,7 @@ double unseen_mm(std::span<const Metric> metrics) {
   return std::max(0.0, value_of(metrics, kUnseen.metric) - value_of(metrics, "unseen_entry_mm"));
 }
 
-/// The run that most of it was in. The way to the picture's edge, which the first run begins with,
-/// is none of it.
+/// The run with most of it, the way to the picture's edge in the first one aside.
 const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
   const AttemptEvent* worst = nullptr;
   double max = 0;
@@ -128,6 +127,13 @@ void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::v
                    beside("time until the needle was out", *late->value, "s", late->mark.bound),
                    "the time limit was over",
                    "Look and decide before you enter the skin, then go."});
+  const JudgedMark* entry = mark_of(judgement, "entry_offset_mm");
+  if (const AttemptEvent* e = worst_event(m, "contact");
+      e != nullptr && entry != nullptr && entry->value && !entry->held)
+    out.push_back(
+        {"entry", e->time, kLate,
+         beside("distance from the planned entry", *entry->value, "mm", entry->mark.bound),
+         "the path was not chosen before the skin", "Choose the path before you enter the skin."});
 }
 
 void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
@@ -276,8 +282,7 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    "Hold the needle flatter: enter further from the probe."});
 }
 
-/// One thing done well. Nothing of an attempt that harmed, and nothing that a mark or a fault
-/// contradicts.
+/// One thing done well that no harm, mark or fault contradicts.
 std::string praise(const AttemptMeasures& m, const Judgement& judgement,
                    const std::vector<Fault>& faults) {
   for (const JudgedMark& mark : judgement.marks)
@@ -325,7 +330,7 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
       if (!faulty[k]) clean[k] += std::exp2(-attempt.weeks / kHalfLife);
     }
   };
-  std::for_each(context.before.begin(), context.before.end(), add);
+  for (const PastAttempt& attempt : context.before) add(attempt);
   add(now);
   std::optional<Skill> weakest;
   double min = kWeak;
@@ -374,8 +379,7 @@ SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weak
 Skill skill_of_fault(const std::string& kind) noexcept {
   if (kind == "not_found") return Skill::look;
   if (kind == "unseen" || kind == "angle") return Skill::view;
-  if (kind == "drift" || kind == "passes") return Skill::align;
-  if (kind == "late" || kind == "left_in") return Skill::steer;
+  if (kind == "drift" || kind == "passes" || kind == "entry") return Skill::align;
   if (kind == "misplaced" || kind == "unaspirated" || kind == "pressure" || kind == "fast")
     return Skill::inject;
   return Skill::steer;

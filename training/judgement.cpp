@@ -74,9 +74,9 @@ int whole_points(double score) noexcept {
 }
 
 MarkKind kind_of_mark(std::string_view metric) noexcept {
-  constexpr std::array<std::string_view, 6> kDangers{"withdrawn",       "bone_contacts",
-                                                     "bone_peak_n",     "pressure_peak_kpa",
-                                                     "aspirated_first", "in_target"};
+  constexpr std::array<std::string_view, 7> kDangers{
+      "asked",           "withdrawn", "bone_contacts", "bone_peak_n", "pressure_peak_kpa",
+      "aspirated_first", "in_target"};
   constexpr std::array<std::string_view, 6> kPurposes{
       "distance_mm", "found", "given_ml", "given_distance_mm", "unseen_advances", "unseen_mm"};
   const auto among = [&](const auto& names) {

@@ -121,6 +121,24 @@ PreparedBody make_played_body(const Scenario& scenario, const Scene& scene) {
           std::make_shared<const OpenedSpaces>(scene.shared_joint(), scenario.syringe.volume > 0)};
 }
 
+void add_asked(const Scenario& scenario, const std::set<std::string>& asked,
+               std::vector<Metric>& metrics) {
+  double questions = 0;
+  double put = 0;
+  for (const std::string& step : scenario.steps) {
+    if (step.rfind("ask:", 0) != 0) continue;
+    ++questions;
+    put += asked.count(step) != 0 ? 1 : 0;
+  }
+  if (questions == 0) return;
+  metrics.push_back({"asked",
+                     "patient",
+                     "-",
+                     put / questions,
+                     "share of the task's questions to the patient that were asked before it began",
+                     {"none, once", 0}});
+}
+
 Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<const Scene>& scene,
                            const OperatorSkill& skill, const PlayOptions& options) {
   Scenario scenario = with_aids;
@@ -145,6 +163,7 @@ Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<cons
   attempt.body = hands->find_body();
   if (attempt.body) attempt.health = measure_body_health(*attempt.body);
   attempt.measures = meter.measure();
+  add_asked(scenario, {scenario.steps.begin(), scenario.steps.end()}, attempt.measures.metrics);
   attempt.judgement =
       judge(attempt.measures.metrics, scenario.pass, scenario.score, scenario.aided());
   return attempt;

@@ -2,6 +2,9 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "artus/detail/operators/scanning_operator.h"
 #include "artus/detail/simulation/imaged_body.h"
@@ -27,6 +30,11 @@ namespace artus {
 [[nodiscard]] Result<MeterOptions> make_meter_options(const Scenario& scenario,
                                                       const CompiledJoint& joint,
                                                       const SessionParams& params);
+
+/// `asked`: which of the task's questions to the patient were asked before the needle went in, as a
+/// share of them; nothing where the task has none.
+void add_asked(const Scenario& scenario, const std::set<std::string>& asked,
+               std::vector<Metric>& metrics);
 
 /// An attempt as it was played.
 struct PlayedAttempt {

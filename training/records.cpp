@@ -227,8 +227,9 @@ Result<void> Records::finish(const AttemptRecord& a, std::span<const Metric> met
                              std::span<const AttemptEvent> events) {
   return in_transaction(*db_, [&]() -> Result<void> {
     ARTUS_TRY(require_attempt(*db_, a.id));
-    run(*db_, "UPDATE attempt SET ended = ?, duration = ?, passed = ?, score = ? WHERE id = ?",
-        a.ended, a.duration, int{a.passed}, a.score, a.id);
+    run(*db_,
+        "UPDATE attempt SET ended = ?, duration = ?, passed = ?, score = ?, aided = ? WHERE id = ?",
+        a.ended, a.duration, int{a.passed}, a.score, int{a.aided}, a.id);
     for (const Metric& m : metrics) {
       auto put = query(*db_, "INSERT OR REPLACE INTO metric(attempt, name, value) VALUES(?, ?, ?)",
                        a.id, metric_id(*db_, m));

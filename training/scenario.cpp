@@ -20,8 +20,9 @@ namespace artus {
 namespace {
 
 std::vector<std::string> step_names() {
-  return {"ask:side",      "ask:allergy", "ask:consent",   "auto:doppler",  "auto:entry",
-          "auto:tip_seen", "auto:placed", "auto:injected", "auto:withdrawn"};
+  return {"ask:side",      "ask:allergy",   "ask:consent",   "ask:anticoagulation",
+          "ask:infection", "auto:doppler",  "auto:entry",    "auto:tip_seen",
+          "auto:placed",   "auto:injected", "auto:withdrawn"};
 }
 
 /// Why a ball cannot lie where it should in what there is so far; empty: it can.

@@ -22,11 +22,25 @@ void WindowLoop::begin_lesson() {
 void WindowLoop::lead_lesson() {
   lesson_ = options_.lesson->lead({input_.now, input_.needle, state_.look.colour});
   if (lesson_.over) state_.quit = state_.finished = true;
+  if (lesson_.frozen && *lesson_.frozen != session_.frozen()) set_frozen(*lesson_.frozen);
+  const LessonAids& aids = lesson_.aids ? *lesson_.aids : options_.lesson->aids;
+  if (lesson_.aids) {
+    state_.aids = aids.any();
+    state_.labels = aids.labels > 0;
+    joint_->cut_away = aids.plane > 0;
+  }
   input_.needle.in_plane = input_.needle.in_plane && lesson_.beam_on_tip;
   input_.marks.clear();
   if (input_.image == nullptr || input_.image->width == 0) return;
   const ImageSnapshot& image = *input_.image;
-  const LessonAids& aids = options_.lesson->aids;
+  if (lesson_.pointed) {
+    const double millimetre = 1e3 * image.pixel;  // mm of a pixel
+    input_.marks.push_back({{lesson_.pointed->first * image.width * millimetre,
+                             lesson_.pointed->second * image.height * millimetre},
+                            std::nullopt,
+                            1,
+                            true});
+  }
   if (aids.target > 0 && aids.target_J)
     input_.marks.push_back(
         {point_on_picture(image, *aids.target_J), std::nullopt, aids.target, false});

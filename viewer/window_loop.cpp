@@ -233,6 +233,8 @@ void WindowLoop::guide() {
   else
     input_.next = state_.keys.said_key(Action::take_probe, state_.language) + ": " +
                   translate(state_, "Explore with the probe");
+  const bool able = in.peer == PeerState::alive && !in.paused;
+  if (able && options_.lesson && !lesson_.next.empty()) input_.next = lesson_.next;
   input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
 }
 

@@ -96,7 +96,8 @@ FrameRecord to_record(const FrameInput& input, const Frame& frame, const Transdu
   FrameRecord record;
   record.input = input;
   record.digest = digest_of(frame);
-  if (const auto contrast = needle_contrast(input, frame, transducer)) record.tip_contrast = *contrast;
+  if (const auto contrast = needle_contrast(input, frame, transducer))
+    record.tip_contrast = *contrast;
   return record;
 }
 

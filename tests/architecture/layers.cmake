@@ -83,7 +83,7 @@ set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labe
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,anatomy/source,anatomy/import,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer,devices/kit" "hpdf:devices/kit"
   "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange,anatomy/import,anatomy/label_maps" "assimp/:anatomy/import" "draco/:anatomy/import" "zlib:anatomy/import,dataset,exchange" "hdf5:exchange" "expat:exchange"
-  "sqlite3:training" "SQLiteCpp/:training"
+  "httplib:trainer" "sqlite3:training" "SQLiteCpp/:training"
   "nlohmann/:anatomy/compile,anatomy/import,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate,devices/bridges")
 
 # The rooms of public headers, which are included by their short names.

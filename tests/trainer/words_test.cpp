@@ -78,6 +78,7 @@ TEST_F(LogbookPage, SaysByProcedureWhatWasDoneAndWhatIsDueAgain) {
     EXPECT_NE(page->find("2026-02-02"), std::string::npos);
     EXPECT_NE(page->find(due), std::string::npos);
     EXPECT_EQ(page->find("sasd_lateral"), std::string::npos) << "no raw name";
+    EXPECT_NE(page->find("data-name=\""), std::string::npos) << "a phone's cells say what they are";
   }
   EXPECT_FALSE(write_logbook_page(*records, "nobody", "2026-06-01T00:00:00Z", Language::english,
                                   in("none.html")));

@@ -69,8 +69,9 @@ class ScriptedHands {
   }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] AttemptMeasures measure() const { return meter_->measure(); }
-  double aside = 0;  ///< mm, of the needle from the plane
-  double along = 0;  ///< mm, of the needle's line from the point along the face
+  bool feels = false;  ///< the hand feels forces, of which none is of bone
+  double aside = 0;    ///< mm, of the needle from the plane
+  double along = 0;    ///< mm, of the needle's line from the point along the face
 
  private:
   [[nodiscard]] Vec3 tip() const {
@@ -81,6 +82,12 @@ class ScriptedHands {
     const Pose X_JP = make_pose(Vec3(1e-3 * probe_ - 5e-3, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
     meter_->add_needle(time_, X_JN.translation(), Eigen::Quaterniond(X_JN.linear()));
     meter_->add_probe(time_, X_JP.translation(), Eigen::Quaterniond(X_JP.linear()));
+    if (feels) {
+      FeltTick felt;
+      felt.time = time_;
+      felt.tip = tip_J;
+      meter_->add_felt(felt);
+    }
     give();
   }
   void give() {

@@ -434,7 +434,7 @@ std::vector<std::string> metric_names() {
   options.goals.entry = Vec3::Zero();
   AttemptMeasures nothing;
   nothing.sought.resize(1);
-  std::vector<std::string> names;
+  std::vector<std::string> names{"asked"};  // of whoever leads the attempt (add_asked)
   for (const Metric& m : compute_metrics({scene, options, nothing, {}, {}, true, 0}))
     if (m.name.find(':') == std::string::npos &&
         std::find(names.begin(), names.end(), m.name) == names.end())

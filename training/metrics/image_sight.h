@@ -12,6 +12,6 @@ struct ImageSight {
 };
 /// dB from which a tip is seen; assumed: 6, less what the dozen speckles at the tip waver by.
 inline constexpr double kVisibleContrast = 4;
-inline constexpr double kNotShown = -60;       ///< dB, of a tip of which nothing shows
+inline constexpr double kNotShown = -60;  ///< dB, of a tip of which nothing shows
 
 }  // namespace artus

@@ -301,7 +301,7 @@ void JointView::go_on(Clock::time_point begin) {
       glFinish();
       bundle = 0;
     }
-    if (bundle == 0 && since(begin) > kRequestedTime) break;
+    if (bundle == 0 && since(begin) > (shown_ ? kRequestedTime : kFirstTime)) break;
     const Step& step = steps_[next_step_];
     const auto before = Clock::now();
     const GlMesh& mesh = mesh_of(*step.sheet);

@@ -53,6 +53,7 @@ struct ScreenLabel {
 class JointView {
  public:
   static constexpr double kRequestedTime = 25e-3;     ///< s that a call may take
+  static constexpr double kFirstTime = 150e-3;        ///< s, while nothing is shown yet
   static constexpr double kRequestedPicture = 50e-3;  ///< s that a picture may take in all
 
   [[nodiscard]] static Result<std::unique_ptr<JointView>> make(

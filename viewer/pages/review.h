@@ -48,7 +48,8 @@ struct Review {
   std::optional<ReviewFilm> expert;  ///< shown beside, from the moment at which its needle went in
   std::vector<ReviewFault> faults;   ///< in any order
   std::optional<Vec3> target_J;
-  bool in_plane = true;  ///< the needle is meant to lie in the picture
+  bool in_plane = true;    ///< the needle is meant to lie in the picture
+  bool of_expert = false;  ///< the film is not one's own
   std::function<std::string(const HapticSnapshot&)> why;  ///< what the truth says of the tip
 };
 

@@ -243,8 +243,10 @@ class ReviewGui {
   }
 
   void draw_yours(const ReviewMoment& now) {
-    const std::string title = fill(translate(options_.language, "You, at {} s"),
-                                   {number(options_.language, now.time, 1)});
+    const std::string title =
+        fill(translate(options_.language,
+                       review_.of_expert ? msgid("The expert, at {} s") : msgid("You, at {} s")),
+             {number(options_.language, now.time, 1)});
     const auto [corner, scale] = draw_image(yours_, title);
     if (truth_) draw_truth(now, corner, scale);
   }
@@ -308,7 +310,10 @@ class ReviewGui {
         joint_->draw(static_cast<int>(room.x), static_cast<int>(room.y),
                      {now.state, to_pose(now.state.X_JN), state_of(*yours_.image().body),
                       &yours_.image(), yours_.texture(), no_entry});
-    if (texture != 0) ImGui::Image(to_imgui(texture), room, ImVec2(0, 1), ImVec2(1, 0));
+    if (texture != 0)
+      ImGui::Image(to_imgui(texture), room, ImVec2(0, 1), ImVec2(1, 0));
+    else
+      ImGui::TextUnformatted(translate(options_.language, "The joint is being drawn ..."));
     ImGui::SetCursorScreenPos(corner);
     ImGui::InvisibleButton("joint", room);
     const ImVec2 drag = ImGui::GetIO().MouseDelta;

@@ -12,6 +12,7 @@ constexpr Shade kDone{0.55F, 0.95F, 0.55F};
 constexpr Shade kOpen{0.85F, 0.85F, 0.85F};
 constexpr Shade kDim{0.6F, 0.6F, 0.6F};
 constexpr Shade kAlarm{1, 0.55F, 0.4F};
+constexpr Shade kRemark{1, 0.88F, 0.4F};
 
 }  // namespace
 
@@ -37,6 +38,7 @@ void draw_lesson_panel(const PanelInput& in, ViewState& state) {
   const Lesson& lesson = *state.lesson;
   wrapped_text(lesson.title, kOpen);
   wrapped_text(lesson.clock, lesson.late ? kAlarm : kOpen);
+  if (!lesson.remark.empty()) wrapped_text(lesson.remark, kRemark);
   for (const LessonStep& step : lesson.steps) {
     const std::string mark = step.known && step.done ? "+ " : "-  ";
     const std::string later =

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "artus/core/geometry.h"
@@ -26,19 +27,6 @@ struct LessonStep {
   bool known = true;
 };
 
-/// What a window tells of a task while it is done.
-struct Lesson {
-  std::string title;
-  std::string goal;
-  std::vector<LessonStep> steps;
-  std::string clock;
-  bool late = false;           ///< beyond the time that the task gives
-  std::string patient;         ///< what the patient says; empty: nothing
-  bool patient_hurts = false;  ///< and how
-  bool over = false;           ///< the window ends
-  bool beam_on_tip = true;     ///< the picture's beam does not pass beside the tip
-};
-
 /// What is shown of the truth to help, 0 off to 1 full.
 struct LessonAids {
   double needle = 0;  ///< the shaft's line on the picture
@@ -48,6 +36,25 @@ struct LessonAids {
   double plane = 0;   ///< the body cut open along the picture's plane, in 3D
   std::optional<Vec3> target_J;
   [[nodiscard]] bool any() const noexcept { return needle + tip + target + labels + plane > 0; }
+};
+
+/// What a window tells of a task while it is done.
+struct Lesson {
+  std::string title;
+  std::string goal;
+  std::vector<LessonStep> steps;
+  std::string next;  ///< what to do now; empty: what the guide says
+  std::string clock;
+  bool late = false;           ///< beyond the time that the task gives
+  std::string patient;         ///< what the patient says; empty: nothing
+  bool patient_hurts = false;  ///< and how
+  bool over = false;           ///< the window ends
+  bool beam_on_tip = true;     ///< the picture's beam does not pass beside the tip
+  // What somebody who looks on does.
+  std::optional<bool> frozen;                        ///< the picture, from now on
+  std::optional<std::pair<double, double>> pointed;  ///< at a place of it: 0 to 1 across and down
+  std::optional<LessonAids> aids;                    ///< in place of the options'
+  std::string remark;                                ///< empty: none
 };
 
 /// A reading without what only the truth tells of a needle inside: where the tip is, what it

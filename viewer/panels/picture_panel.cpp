@@ -64,6 +64,24 @@ void draw_ruler(const Sheet& sheet) {
   }
 }
 
+/// Along the face, from the probe's middle to both sides, at the lower edge of what is seen.
+void draw_lateral_ruler(const Sheet& sheet) {
+  const float bottom = sheet.corner.y + sheet.size.y;
+  const double middle = sheet.width_mm / 2;
+  const int most = static_cast<int>(middle);
+  for (int mm = -(most - most % 5); mm <= most; mm += 5) {
+    const auto x = static_cast<float>(sheet.place.x_of({middle + mm, 0}));
+    if (x < sheet.corner.x || x > sheet.corner.x + sheet.size.x) continue;
+    const bool ten = mm % 10 == 0;
+    outlined_line(sheet.list, ImVec2(x, bottom - sheet.unit * (ten ? 8.F : 4.F)),
+                  ImVec2(x, bottom));
+    if (!ten) continue;
+    const std::string text = std::to_string(std::abs(mm));
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    outlined_text(sheet.list, ImVec2(x - size.x / 2, bottom - 9 * sheet.unit - size.y), text);
+  }
+}
+
 void draw_cross(const Sheet& sheet, const ImVec2& p) {
   const float arm = 5 * sheet.unit;
   outlined_line(sheet.list, ImVec2(p.x - arm, p.y), ImVec2(p.x + arm, p.y));
@@ -282,6 +300,7 @@ void draw_settings(const Sheet& sheet, const Columns& columns, int column, Langu
 void draw_sheet(const Sheet& sheet, const PanelInput& in, const ViewState& state,
                 const std::string& state_of_it) {
   draw_ruler(sheet);
+  draw_lateral_ruler(sheet);
   const ImVec2 end(sheet.corner.x + sheet.size.x + 10 * sheet.unit, sheet.corner.y + sheet.size.y);
   sheet.list->PushClipRect(sheet.corner, end, true);
   draw_marks(sheet, in, state, state_of_it);

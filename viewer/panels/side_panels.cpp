@@ -156,7 +156,10 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, J
   area.width = std::max(64, static_cast<int>(room.x));
   area.height = std::max(64, static_cast<int>(room.y));
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::Image(to_imgui(in.joint_texture), room, ImVec2(0, 1), ImVec2(1, 0));
+  if (in.joint_texture != 0)
+    ImGui::Image(to_imgui(in.joint_texture), room, ImVec2(0, 1), ImVec2(1, 0));
+  else
+    ImGui::TextUnformatted(translate(state, "The joint is being drawn ..."));
   ImGui::SetCursorScreenPos(at);
   ImGui::InvisibleButton("joint", ImVec2(std::max(room.x, 1.F), std::max(room.y, 1.F)));
   const ImGuiIO& io = ImGui::GetIO();
