@@ -9,10 +9,12 @@
 #include <CLI/CLI.hpp>
 
 #include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
 
 namespace {
@@ -24,6 +26,7 @@ struct Options {
   std::filesystem::path out;
   double head_radius_mm = kUsualHead;
   std::vector<std::string> only;
+  std::filesystem::path measures;
 };
 
 artus::Result<void> write_solid(const artus::Solid& solid, const std::filesystem::path& folder) {
@@ -60,7 +63,21 @@ std::vector<artus::Solid> solids_of(const Options& options) {
   return artus::make_simple_shoulder(size);
 }
 
+int write_measures(const Options& options) {
+  artus::ShoulderSize size;
+  size.head_radius = options.head_radius_mm * artus::kMillimetre;
+  const auto written =
+      artus::write_text(options.measures, to_markdown(artus::measure_shoulder(size)));
+  if (!written) std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
+  return written ? 0 : 1;
+}
+
 int generate(const Options& options) {
+  if (!options.measures.empty()) return write_measures(options);
+  if (options.out.empty()) {
+    std::fprintf(stderr, "artus_generate_meshes: say where to write: --out or --measures\n");
+    return 1;
+  }
   const std::vector<artus::Solid> solids = solids_of(options);
   std::filesystem::create_directories(options.out);
   for (const artus::Solid& solid : solids) {
@@ -79,7 +96,10 @@ int run(int argc, char** argv) {
   app.add_option("joint", options.joint, "simple-shoulder, shoulder, knee or hip")
       ->required()
       ->check(CLI::IsMember({"simple-shoulder", "shoulder", "knee", "hip"}));
-  app.add_option("--out", options.out, "folder for the PLY files, made when missing")->required();
+  auto* out = app.add_option("--out", options.out, "folder for the PLY files, made when missing");
+  auto* measures = app.add_option("--measures", options.measures,
+                                  "in place of it: lengths of the shoulder beside published ones");
+  out->excludes(measures);
   app.add_option("--head-radius", options.head_radius_mm,
                  "radius of the humeral or femoral head, mm; a knee's size follows")
       ->check(CLI::Range(10.0, 40.0))

@@ -9,10 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/joint_file.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/scapular_frame.h"
 #include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
 #include "tests/support/paths.h"
 
@@ -236,6 +238,17 @@ TEST(BundledJoints, ShoulderHasTheGrooveAndTheTuberosityOfAnAdults) {
   for (double z = 0; z < 24e-3; z += 0.02e-3)
     if (bone(frame.at(-26, 2, 0) + Vec3(0, 0, z)) < 0) top = z;
   EXPECT_NEAR(24 - 1e3 * top, 8, 3.2 + 1);
+}
+
+TEST(BundledJoints, ShoulderHasLengthsOfAdultsAndTheTableTellsThem) {
+  const std::vector<Measure> measures = measure_shoulder({});
+  for (const Measure& m : measures) {
+    const bool is_known_gap = m.what == "subscapularis tendon over the head";  // 6.3 mm
+    EXPECT_EQ(m.is_within(), !is_known_gap) << m.what << ": " << m.value << " mm";
+  }
+  const auto told = read_bytes(artus::test::source_dir() / "docs/results/shoulder-measures.md");
+  ASSERT_TRUE(told) << told.error().to_string();
+  EXPECT_EQ(*told, to_markdown(measures)) << "artus_generate_meshes shoulder --measures FILE";
 }
 
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
