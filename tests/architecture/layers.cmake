@@ -12,6 +12,7 @@ set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/label
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
 set(may_anatomy/compile ${may_anatomy/compile/check} anatomy/compile/check)
 set(may_anatomy/import core anatomy/surfaces anatomy/body anatomy/source)
+set(may_anatomy/import/atlas ${may_anatomy/import} anatomy/import)
 set(may_anatomy/label_maps core anatomy/surfaces anatomy/body anatomy/source anatomy/import)
 set(may_soft/cage core anatomy/body)
 set(may_soft/solver ${may_soft/cage} soft/cage)
@@ -71,10 +72,10 @@ set(may_devices/bridges "")
 set(may_devices/kit core anatomy/surfaces exchange/igtl)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
 set(may_apps/sweep ${may_apps/options} apps/options)
-set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/label_maps apps/options)
+set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/import/atlas anatomy/label_maps apps/options)
 set(may_apps/hands ${may_apps/options} apps/options devices/kit)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/import/atlas anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)
