@@ -83,7 +83,7 @@ class Walk {
   AttemptMeasures go(Way way) {
     hands_.feels = true;
     hands_.aside = way == Way::blind ? 2.5 : 0;
-    if (way == Way::wrong_side) side_ = 12;
+    if (way == Way::wrong_side) side_ = 13;
     const bool shallow = way == Way::off || way == Way::leaves_early;
     bring(way == Way::off ? kDeep - 8 : way == Way::leaves_early ? 6 : kDeep, way == Way::flips);
     if (way == Way::fatal) bring(26, false);
@@ -144,6 +144,7 @@ TEST(ScenarioVerdicts, TheMarksOfEveryBundledTaskJudgeAsWrittenDown) {
     double passed = 0;
     for (const Known& known : known_ways()) {
       if (known.way == Way::too_fast && scenario->syringe.volume <= 0) continue;
+      if (known.way == Way::late && scenario->level > 2) continue;  // minutes each
       AttemptMeasures m = Walk(*scenario, angle).go(known.way);
       add_asked(*scenario, {scenario->steps.begin(), scenario->steps.end()}, m.metrics);
       const Judgement judged = judge(m.metrics, scenario->pass, scenario->score, false);
@@ -153,7 +154,7 @@ TEST(ScenarioVerdicts, TheMarksOfEveryBundledTaskJudgeAsWrittenDown) {
       EXPECT_EQ(judged.passed, !fails) << what;
       const std::string first = told.faults.empty() ? "" : told.faults.front().kind;
       // Liquid goes where the tip is: who gives it there is told of the liquid.
-      const bool astray = known.way == Way::off && scenario->syringe.volume > 0;
+      const bool astray = known.way == Way::off && scenario->syringe.volume > 0.5e-6;
       EXPECT_EQ(first, astray ? "misplaced" : known.first) << what;
       if (known.way == Way::perfect) passed = judged.score;
       EXPECT_EQ(passed, 100) << what;
