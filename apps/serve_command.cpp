@@ -15,6 +15,7 @@
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/apps/options/tick_tally.h"
+#include "artus/detail/session/liquid_at_tip.h"
 #include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/training/player.h"
 
@@ -80,7 +81,10 @@ Result<std::shared_ptr<const CompiledJoint>> load_body(const SessionOptions& opt
 void print_status(const Session& session) {
   HapticSnapshot now;
   if (!session.newest(now)) return;
-  const std::string& layer = session.scene().joint().regions[now.feedback.region].name;
+  const auto& regions = session.scene().joint().regions;
+  const auto liquid = liquid_at_tip(now);
+  const std::string layer =
+      liquid ? "liquid in " + regions[*liquid].name : regions[now.feedback.region].name;
   const Vec3 force(now.force_J[0], now.force_J[1], now.force_J[2]);
   std::fprintf(stderr,
                "device %-8s tick %llu image %llu  %-10s %-24s depth %6.2f mm  %5.2f N  status %x\n",

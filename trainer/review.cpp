@@ -10,6 +10,7 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
 #include "artus/detail/reports/mark_words.h"
+#include "artus/detail/session/liquid_at_tip.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/session/replay.h"
 
@@ -51,12 +52,16 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
   const auto mm = [&](double length) {
     return number(language, length / kMillimetre, 1);
   };
-  const auto& region = scene.joint().regions[state.feedback.region];
+  const auto liquid = liquid_at_tip(state);
+  const auto& region =
+      scene.joint().regions[liquid.value_or(static_cast<RegionId>(state.feedback.region))];
+  const std::string name = clinical_name(language, region.name);
   std::string where = fill(
       translate(language,
                 "The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm "
                 "thick to either side there"),
-      {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
+      {liquid ? fill(translate(language, "liquid in: {}"), {name}) : name,
+       mm(std::abs(sight.offset)), mm(sight.half_width)});
   if (sight.seen()) return where + ". " + translate(language, "It can be seen.");
   switch (sight.loss) {
     case SightLoss::none:

@@ -5,11 +5,13 @@
 #include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "artus/detail/operators/looking_operator.h"
 #include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/simulation/simulated_hands.h"
 #include "artus/detail/training/health/simulated_health.h"
+#include "artus/detail/training/metrics/goals.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -123,15 +125,14 @@ class NeedleAttempt final : public SimulatedAttempt {
                  appears_at(scenario, *scene_, finder_)},
                 mix_seed(scenario.seed, options.seed)),
         thumb_(scenario.syringe, skill),
-        target_point_(scenario.target.point) {
+        target_point_(scenario.target.point),
+        is_structure_(!scenario.target.structure.empty()) {
     hands_.take_up(HandLoop({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
                             person_.intention(0).X_JN));
     const double volume = scenario.syringe.volume;
     const PlungerParams& plunger = session_.simulation().syringe().plunger().params();
     if (volume > 0) hands_.set_thumb(DosingThumb(plunger, volume, kRate));
-    const auto& regions = scene_->joint().regions;
-    for (std::size_t i = kFirstRegion; i < regions.size(); ++i)
-      if (regions[i].name == scenario.target.structure) target_ = static_cast<RegionId>(i);
+    in_target_ = place_of(scenario.target.structure, scene_->joint());
   }
 
   /// One tick. False when the attempt is over.
@@ -156,13 +157,23 @@ class NeedleAttempt final : public SimulatedAttempt {
     ScanGlance seen;
     seen.visible = sight.seen() && out.feedback.region != kOutside;
     seen.offset = sight.offset;
-    if (const auto* tissue = session_.simulation().scene()->tissue().get())
-      seen.moved = tissue->displacement(target_point_);
+    // A target without a structure is a place in space, which no tissue carries along.
+    const auto& tissue = session_.simulation().scene()->tissue();
+    if (tissue && is_structure_) seen.moved = tissue->displacement(target_point_);
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
-    seen.astray = out.feedback.plunger.given > kSeenVolume && out.feedback.region != target_;
+    seen.astray = out.feedback.plunger.given > kSeenVolume && !fills_target(out);
     person_.look(t, X_JN, seen);
+  }
+
+  /// As the picture tells: at least half of what was given went into the target's place.
+  [[nodiscard]] bool fills_target(const HapticSnapshot& out) const {
+    double there = 0;
+    for (std::size_t k = 0; k < std::min<std::size_t>(out.n_sites, kMaxSites); ++k)
+      if (out.sites[k].region < in_target_.size() && in_target_[out.sites[k].region])
+        there += out.sites[k].volume;
+    return 2 * there >= out.feedback.plunger.given;
   }
 
   std::shared_ptr<const Scene> scene_;
@@ -172,7 +183,8 @@ class NeedleAttempt final : public SimulatedAttempt {
   ThumbPlan thumb_;
   SimulatedHands hands_;
   Vec3 target_point_;
-  std::uint32_t target_ = kOutside;
+  bool is_structure_;
+  std::vector<bool> in_target_;  // by region: its place is the target's
 };
 
 /// An attempt with the probe alone while it is played: the hand slides over the skin.

@@ -327,7 +327,8 @@ void put_doses(Sheet& sheet, const AttemptView& view) {
   };
   double off = 0;
   double in_target = 0;
-  const std::vector<bool> target_place = place_of(view.options.goals, view.scene.joint());
+  const std::vector<bool> target_place =
+      place_of(target && target->body ? target->name : "", view.scene.joint());
   std::vector<double> by_region(view.scene.joint().regions.size());
   for (const Dose& dose : doses) {
     if (dose.region < by_region.size()) by_region[dose.region] += dose.volume;
@@ -340,14 +341,13 @@ void put_doses(Sheet& sheet, const AttemptView& view) {
     const auto mean = share(off);
     sheet.put("syringe", "given_distance_mm", "mm", mean ? Value(*mean / kMillimetre) : mean,
               "tip to " + target->name + ", mean over the volume given");
-    sheet.put(
-        "syringe", "in_target", "-", target->body ? share(in_target) : Value(),
-        "share of the volume that went into " + target->name + ", or what hangs together with it");
+    sheet.put("syringe", "in_target", "-", target->body ? share(in_target) : Value(),
+              "share of the volume that went into the place of " + target->name);
   }
   for (std::size_t i = 0; i < by_region.size(); ++i)
     if (by_region[i] > 0)
       sheet.put("syringe", "given_ml:" + view.scene.joint().regions[i].name, "ml",
-                by_region[i] / kCubicCentimetre, "given with the tip in this layer");
+                by_region[i] / kCubicCentimetre, "given into the place of this layer");
 }
 
 void put_syringe(Sheet& sheet, const AttemptView& view) {

@@ -26,10 +26,9 @@ double distance_to(const Target& target, const Vec3& p_J) noexcept {
   return std::max(0.0, target.body->signed_distance_to_skin(p_J, kFar));
 }
 
-std::vector<bool> place_of(const Goals& goals, const CompiledJoint& joint) {
+std::vector<bool> place_of(const std::string& structure, const CompiledJoint& joint) {
   std::vector<bool> in(joint.regions.size(), false);
-  if (!goals.target || !goals.target->body) return in;
-  const auto region = find_region(joint, goals.target->name);
+  const auto region = find_region(joint, structure);
   const auto spaces = make_joint_spaces(joint);
   if (!region || !spaces) return in;
   for (std::size_t r = 0; r < in.size(); ++r)

@@ -36,9 +36,9 @@ struct Goals {
 /// m from a point to the target's point, or to its structure's surface: 0 inside.
 [[nodiscard]] double distance_to(const Target& target, const Vec3& p_J) noexcept;
 
-/// By region: whether liquid in it is in the target's place; all regions of a space are one. All
-/// false where the target is no structure of the joint.
-[[nodiscard]] std::vector<bool> place_of(const Goals& goals, const CompiledJoint& joint);
+/// By region: whether liquid in it is in the place of `structure`; all regions of a space are one.
+/// All false where the joint has no such structure.
+[[nodiscard]] std::vector<bool> place_of(const std::string& structure, const CompiledJoint& joint);
 
 /// What happened in one zone. Between points the tip is taken as going straight and looked at every
 /// 0.25 mm or finer.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/session/liquid_at_tip.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 
@@ -54,6 +55,9 @@ NeedleReading read_needle(const Scene& scene, const HapticSnapshot& now, double 
       reading.layer = layer_name(language, joint, line, k);
     }
   }
+  if (const auto liquid = liquid_at_tip(now); liquid && *liquid < joint.regions.size())
+    reading.layer = fill(translate(language, "liquid in: {}"),
+                         {clinical_name(language, joint.regions[*liquid].name)});
   reading.hub_on_skin = reading.inside && reading.depth >= needle_length - kHubSlack;
   const Vec3 tip = X_JN.translation() - reading.hand_excess * axis;
   if (target_J) {
