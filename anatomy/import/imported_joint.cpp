@@ -93,14 +93,21 @@ std::string to_joint_toml(const ImportedJoint& joint) {
   return out;
 }
 
-Result<void> write_imported_joint(const ImportedJoint& joint, const std::filesystem::path& folder,
-                                  bool replace) {
+Result<void> may_write_joint(const std::filesystem::path& folder, bool replace) {
   const auto file = folder / "joint.toml";
   std::error_code ignored;
   if (!replace && std::filesystem::exists(file, ignored))
     return fail(ErrorCode::invalid,
                 "there is a joint here already; name another folder, or replace it by --replace",
                 file.string());
+  return {};
+}
+
+Result<void> write_imported_joint(const ImportedJoint& joint, const std::filesystem::path& folder,
+                                  bool replace) {
+  ARTUS_TRY(may_write_joint(folder, replace));
+  const auto file = folder / "joint.toml";
+  std::error_code ignored;
   ARTUS_TRY(write_text(file, to_joint_toml(joint)));
   const auto surfaces = folder / kSurfaces;
   std::filesystem::create_directories(surfaces, ignored);

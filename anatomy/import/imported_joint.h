@@ -76,6 +76,10 @@ struct ImportOptions {
 /// The text of joint.toml.
 [[nodiscard]] std::string to_joint_toml(const ImportedJoint& joint);
 
+/// Whether a joint may be written to `folder`. Errors: invalid (it holds a joint.toml already,
+/// unless `replace`).
+[[nodiscard]] Result<void> may_write_joint(const std::filesystem::path& folder, bool replace);
+
 /// Writes joint.toml and surfaces/*.ply (mm). Errors: invalid (the folder holds a joint.toml
 /// already, unless `replace`), unreadable.
 [[nodiscard]] Result<void> write_imported_joint(const ImportedJoint& joint,

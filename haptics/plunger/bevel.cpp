@@ -27,11 +27,6 @@ class OpeningParts {
     }
     if (n_ < parts_.size()) parts_[n_++] = {space, to - from};
   }
-  [[nodiscard]] double of(std::uint32_t space) const noexcept {
-    for (std::size_t k = 0; k < n_; ++k)
-      if (parts_[k].space == space) return parts_[k].share;
-    return 0;
-  }
   /// The largest that is not `space`.
   [[nodiscard]] TipShare largest_but(std::uint32_t space) const noexcept {
     TipShare found;

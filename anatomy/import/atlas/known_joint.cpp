@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "artus/detail/anatomy/import/imported_joint.h"
 #include "artus/detail/anatomy/import/structure_names.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/printed.h"
@@ -328,12 +329,9 @@ Result<FoundJoint> find_known_joint(const KnownJoint& joint,
 
 Result<void> write_known_joint(const KnownJoint& joint, const FoundJoint& found,
                                const std::filesystem::path& folder, bool replace) {
+  ARTUS_TRY(may_write_joint(folder, replace));
   const auto file = folder / "joint.toml";
   std::error_code ignored;
-  if (!replace && std::filesystem::exists(file, ignored))
-    return fail(ErrorCode::invalid,
-                "there is a joint here already; name another folder, or replace it by --replace",
-                file.string());
   const auto text = read_bytes(joint.folder / "joint.toml");
   ARTUS_TRY(text);
   std::string toml = *text;
