@@ -7,12 +7,19 @@
 #include <memory>
 
 #include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/options/igtl_options.h"
+#include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/exchange/landmark_registration.h"
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/exchange/tracker_calibration.h"
+#include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/shared_memory_device.h"
+#include "artus/detail/trainer/register_page.h"
 #include "artus/detail/training/scenario.h"
 
 namespace artus {
@@ -23,7 +30,12 @@ struct RegisterOptions {
   std::filesystem::path pairs;
   std::string scenario;
   std::string insertion;
-  std::filesystem::path calibration;
+  IgtlOptions igtl;   // whose calibration is the earlier one
+  std::string input;  // igtl or shared-memory; empty: no hand is watched
+  std::string prefix;
+  WindowOptions window;
+  std::string language;
+  std::filesystem::path script;
   std::filesystem::path out;
   double limit_mm = 5;
   double scale = 1;
@@ -80,16 +92,93 @@ Result<void> take_insertion(const std::string& text, TrackerCalibration& calibra
   return {};
 }
 
-Result<void> run_register(const RegisterOptions& options) {
-  if (options.pairs.empty() && options.scenario.empty() && options.insertion.empty())
-    return fail(ErrorCode::malformed, "say how: --pairs, --scenario or --insertion", "--pairs");
+/// A device that says where the needle is in its own frame, and what keeps it going.
+struct WatchedHand {
+  std::unique_ptr<SessionLink> link;
+  std::unique_ptr<InputDevice> device;
+};
+
+/// Errors: those of the tracker's server and of the shared memory.
+Result<WatchedHand> open_hand(const RegisterOptions& options,
+                              const TrackerCalibration& calibration) {
+  WatchedHand hand;
+  if (options.input == "shared-memory") {
+    auto device = SharedMemoryDevice::open(options.prefix, {});
+    ARTUS_TRY(device);
+    hand.device = std::move(*device);
+    return hand;
+  }
+  TrackerInput tracker{calibration, nullptr};
+  tracker.calibration.X_JR = Pose::Identity();  // poses stay in the tracker's Reference
+  tracker.calibration.registered = true;
+  tracker.inbox = std::make_shared<TrackerInbox>(
+      tracker.calibration, TrackerInbox::Names{options.igtl.probe, options.igtl.needle});
+  auto link = open_session_link(options.igtl, tracker);
+  ARTUS_TRY(link);
+  hand.link = std::move(*link);
+  auto device = make_tracker_device(options.igtl, tracker);
+  ARTUS_TRY(device);
+  hand.device = std::move(*device);
+  return hand;
+}
+
+/// By a page that leads from landmark to landmark.
+Result<void> register_in_window(RegisterOptions& options, const TrackerCalibration& calibration) {
+  std::vector<Landmark> landmarks;
+  if (options.input != "shared-memory") {
+    if (options.joint.joint.empty() && options.joint.surfaces.empty())
+      return fail(ErrorCode::malformed, "landmarks are a joint's: name it", "--joint");
+    const auto joint = load(options.joint, make_progress_printer(false));
+    ARTUS_TRY(joint);
+    landmarks = (*joint)->landmarks;
+  }
+  const auto hand = open_hand(options, calibration);
+  ARTUS_TRY(hand);
+  PageScript script;
+  if (!options.script.empty()) {
+    auto steps = read_script(options.script);
+    ARTUS_TRY(steps);
+    script = PageScript(std::move(*steps));
+  }
+  Interrupts interrupts;
+  const auto screen = Screen::open(options.window.width, options.window.height);
+  ARTUS_TRY(screen);
+  const Language language = language_of(options.language);
+  PageWindow pages(**screen, {language, KeyMap(), options.window.font_scale, &script, [&] {
+                                return interrupts.wait(0);
+                              }});
+  TouchedLandmarks touched(std::move(landmarks), options.limit_mm * kMillimetre);
+  const auto needle = [&]() -> std::optional<Pose> {
+    const DeviceSample sample = hand->device->read(monotonic_ns());
+    if (sample.state != PeerState::alive || sample.has_needle == 0) return std::nullopt;
+    return to_pose(sample.X_WN);
+  };
+  const auto save = [&](const TrackerCalibration& known) {
+    return write_text(options.out, to_toml(known));
+  };
+  const auto saved = lead_to_registration(pages, touched, needle, calibration, save, language);
+  ARTUS_TRY(saved);
+  if (*saved)
+    std::fprintf(stderr, "%s: written\n", options.out.c_str());
+  else
+    std::fprintf(stderr, "nothing was saved\n");
+  return {};
+}
+
+Result<void> run_register(RegisterOptions& options) {
+  const bool in_window = !options.input.empty() || !options.igtl.listen.empty();
+  if (options.pairs.empty() && options.scenario.empty() && options.insertion.empty() && !in_window)
+    return fail(ErrorCode::malformed,
+                "say how: --input (a page leads you), --pairs, --scenario or --insertion",
+                "--pairs");
   TrackerCalibration calibration;
-  if (!options.calibration.empty()) {
-    auto earlier = read_tracker_calibration(options.calibration);
+  if (!options.igtl.calibration.empty()) {
+    auto earlier = read_tracker_calibration(options.igtl.calibration);
     ARTUS_TRY(earlier);
     calibration = *earlier;
   }
   if (options.scale != 1) calibration.scale = options.scale;
+  if (in_window) return register_in_window(options, calibration);
   if (!options.insertion.empty()) ARTUS_TRY(take_insertion(options.insertion, calibration));
   if (!options.scenario.empty()) {
     const auto scenario = find_scenario(options.scenario);
@@ -108,8 +197,13 @@ void add_register_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "register", "A tracker's Reference in the joint, from landmarks that were touched",
       "The pairs are CSV, landmark,x_mm,y_mm,z_mm: the names of the joint's landmarks, and where\n"
-      "the tracked tip was when it touched them. Three or more, not on a line.\n"
+      "the tracked tip was when it touched them. Three or more, not on a line. With --input a "
+      "page\n"
+      "leads from landmark to landmark; with --prefix to the place where a device lets a needle "
+      "in.\n"
       "Examples:\n"
+      "  artus register -j shoulder --input igtl --igtl 18944 -o tracker.toml\n"
+      "  artus register --input shared-memory -o device.toml\n"
       "  artus register -j real.artus --pairs pairs.csv -o tracker.toml\n"
       "  artus register -j real.artus --pairs pairs.csv --calibration probe.toml -o tracker.toml\n"
       "  artus register --scenario gel-find -o block.toml     a block on a table, z up from its "
@@ -127,8 +221,14 @@ void add_register_command(Command& app, ExitCode& code) {
   command->add_option("--scale", options->scale, "true lengths over those that the tracker says")
       ->check(number_in(0.5, 2))
       ->capture_default_str();
-  command->add_option("--calibration", options->calibration,
-                      "take the sensors' places on probe and needle from this file");
+  add_igtl_options(command, options->igtl);
+  command
+      ->add_option("--input", options->input,
+                   "igtl or shared-memory: watch this hand, and lead through it in a window")
+      ->check(CLI::IsMember({"igtl", "shared-memory"}));
+  add_prefix_option(command, options->prefix);
+  add_window_options(command, options->window, options->language);
+  command->add_option("--script", options->script, "steps of the page's user, for tests and films");
   command->add_option("--limit-mm", options->limit_mm, "refuse a fit that is worse than this (rms)")
       ->check(number_in(0.01, 100))
       ->capture_default_str();

@@ -22,6 +22,9 @@ enum class SpaceKind : std::uint8_t {
 inline constexpr std::array<std::string_view, 4> kSpaceKindNames{"open", "cavity", "split",
                                                                  "solid"};
 
+/// m of tissue beside a cavity that does not hold liquid: it tears and lets it in; assumed.
+inline constexpr double kHoldingFilm = 0.5e-3;
+
 /// Pressure against volume of a place, and what it takes to get in. Gauge pressures, Pa; volumes
 /// m^3 of what was put in.
 struct SpaceLaw {

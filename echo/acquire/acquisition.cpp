@@ -159,7 +159,7 @@ void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std:
   coupling_.apply(l, shape_->sample_depth(), echoes);
   for_more(l, [&](EchoSpan line) { coupling_.apply(l, shape_->sample_depth(), line); });
   const bool touches = central.contact;
-  add_lens_ringing(touches ? 1 - coupling_.at_line(l) : 1, shape_->sample_depth(), echoes.re);
+  coupling_.add_ringing(l, touches, shape_->sample_depth(), echoes.re);
   pass.frame.contact[at] = static_cast<float>(touches ? coupling_.at_line(l) : 0);
   pass.frame.shadow_from[at] =
       static_cast<float>(std::clamp(central.shadow_from, 0.0, static_cast<double>(n_samples_)));

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "artus/detail/core/noise.h"
 #include "artus/detail/echo/acquire/point_echo.h"
 #include "artus/detail/echo/probe/gain_ramp.h"
 
@@ -11,9 +13,22 @@ namespace artus {
 namespace {
 
 constexpr std::size_t kCouplingStride = 16;  // samples between exact values of the gain
-constexpr double kAirPitch = 1.2e-3;  // m. assumed: lens thickness, pitch of lines without contact
-constexpr int kAirLines = 9;
-constexpr double kAirDecay = 0.45;  // assumed
+// A lens in air, assumed: as scanners show it, some bands that are grey and gone at 1 cm.
+constexpr double kLensPitch = 1.2e-3;  // m from one repeat to the next
+constexpr int kRepeats = 8;
+constexpr double kFirstRepeat = 0.05;    // of what the face itself rings
+constexpr double kRepeatDecay = 0.5;     // from one to the next
+constexpr double kRepeatSpread = 60e-6;  // m that each is longer than the one before
+constexpr double kUneven = 0.6;          // between elements, of amplitude
+constexpr int kUnevenLines = 5;          // scanlines over which that changes
+
+/// What of a repeat the elements under a scanline make.
+double evenness(int l, int repeat) {
+  const auto seed = static_cast<std::uint64_t>(repeat);
+  const auto cell = static_cast<std::uint64_t>(l / kUnevenLines);
+  const double t = static_cast<double>(l % kUnevenLines) / kUnevenLines;
+  return 1 - kUneven * ((1 - t) * uniform_noise(seed, cell) + t * uniform_noise(seed, cell + 1));
+}
 
 double clean(float coupling) {
   return coupling > 0 ? std::min(1.0, static_cast<double>(coupling)) : 0.0;
@@ -65,11 +80,20 @@ void ApertureCoupling::apply(int l, double sample_depth, EchoSpan line) const no
       [&](std::size_t i, float g) { scale_sample(line, i, g); });
 }
 
-void add_lens_ringing(double share, double sample_depth, std::span<float> re) noexcept {
-  double amplitude = share;
-  for (int k = 0; k < kAirLines && amplitude > 0; ++k) {
-    add_point_echo(1 + k * kAirPitch / sample_depth, amplitude, re);
-    amplitude *= kAirDecay;
+/// Each repeat of the lens is weaker than the last, longer, as what is high in it is lost first,
+/// and seen by all of the aperture that is in use at its depth.
+void ApertureCoupling::add_ringing(int l, bool touches, double sample_depth,
+                                   std::span<float> re) const noexcept {
+  if (touches && complete_) return;
+  add_point_echo(1, touches ? 1 - at_line(l) : 1, re);
+  double amplitude = kFirstRepeat;
+  for (int k = 1; k <= kRepeats; ++k, amplitude *= kRepeatDecay) {
+    const double depth = k * kLensPitch;
+    const double dry = touches ? 1 - std::sqrt(gain(l, depth)) : 1;
+    if (!(dry > 0)) continue;
+    const double share = amplitude * dry * evenness(l, k) / (k + 1);
+    for (int i = 0; i <= k; ++i)
+      add_point_echo(1 + (depth + (i - 0.5 * k) * kRepeatSpread) / sample_depth, share, re);
   }
 }
 

@@ -34,6 +34,10 @@ class ApertureCoupling {
   /// Multiplies a line's samples, `sample_depth` (m) apart, by gain().
   void apply(int l, double sample_depth, EchoSpan line) const noexcept;
 
+  /// Adds what the lens rings by itself where it is dry: the face's own, then its repeats, which
+  /// fade within a centimetre. `touches`: whether the line meets the skin at all.
+  void add_ringing(int l, bool touches, double sample_depth, std::span<float> re) const noexcept;
+
  private:
   [[nodiscard]] double integral(double place) const noexcept;
   [[nodiscard]] double place_of(int l) const noexcept;
@@ -42,8 +46,5 @@ class ApertureCoupling {
   std::vector<double> sum_;  // (n_strips + 1), coupling summed up from the -x edge
   bool complete_ = true;
 };
-
-/// Adds the lines of a lens in air, which rings by itself: `share` 0..1 of the face is dry.
-void add_lens_ringing(double share, double sample_depth, std::span<float> re) noexcept;
 
 }  // namespace artus

@@ -20,9 +20,6 @@ namespace artus {
   return 0.5 * bevel_length(outer_diameter);
 }
 
-/// m of tissue beside a cavity that does not hold liquid: it tears and lets it in; assumed.
-inline constexpr double kHoldingFilm = 0.5e-3;
-
 /// What a bevel needs to know of a joint's places.
 struct BevelPlaces {
   std::vector<std::uint32_t> of_region;  ///< (n_regions), as JointSpaces has it

@@ -73,12 +73,19 @@ Field make_tear(const ShoulderSize& size) {
   return intersect(intersect(gap, width, mm.length(1)), end, mm.length(2));
 }
 
-// Between head and posterior labrum, where the capsule lies on the cartilage.
+// Between head and capsule, from the posterior labrum down to the axillary pouch: wide enough for
+// what a joint takes.
 Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
   const double inner = size.head_radius + size.cartilage - 0.8e-3;
   const Field film =
       subtract(make_ball(Vec3::Zero(), inner + 2.3e-3), make_ball(Vec3::Zero(), inner), 0.2e-3);
-  return intersect(film, make_ball(mm.at(13, 24.5, -2), mm.length(9)), 0.4e-3);
+  return intersect(film, make_ball(mm.at(11, 20, -11), mm.length(19)), 0.4e-3);
+}
+
+// The cleft between both bones and the recess above it, under the capsule.
+Field make_acromioclavicular_cavity(const Millimetres& mm, const Vec3& middle) {
+  return unite(make_ellipsoid(middle, mm.at(3, 6, 4.5)),
+               make_ellipsoid(middle + mm.at(0, 0, 3.4), mm.at(5.2, 6.6, 1.3)), mm.length(1));
 }
 
 // From the base of the coracoid over the biceps tendon to both tubercles.
@@ -125,7 +132,7 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
        mm.length(80), 1e-3, 0.06e-3},
       {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3), mm.at(6, -11, 29.5),
        mm.length(80), 1e-3, 0.06e-3},
-      {"acromioclavicular_cavity", make_ellipsoid(ac, mm.at(3, 6, 4.5)), ac, mm.length(30), 0.9e-3,
+      {"acromioclavicular_cavity", make_acromioclavicular_cavity(mm, ac), ac, mm.length(30), 0.9e-3,
        0.05e-3},
       {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(6.5, 8.5, 6.5)), ac, mm.length(40),
        1.3e-3, 0.06e-3},

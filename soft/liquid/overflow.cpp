@@ -18,10 +18,9 @@
 namespace artus {
 namespace {
 
-constexpr int kRounds = 4;               // a full space spills into what may tear the next
-constexpr double kHoldingFilm = 0.5e-3;  // m of tissue that tears; assumed
-constexpr double kDrawn = 1e-9;          // m^3
-constexpr double kInto = 0.5e-3;         // m behind the wall, where it begins to part tissue
+constexpr int kRounds = 4;        // a full space spills into what may tear the next
+constexpr double kDrawn = 1e-9;   // m^3
+constexpr double kInto = 0.5e-3;  // m behind the wall, where it begins to part tissue
 
 /// What parts, next to a space.
 struct Beyond {

@@ -12,6 +12,7 @@
 #include "artus/detail/exchange/landmark_registration.h"
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/exchange/remote_command.h"
+#include "artus/detail/exchange/touched_landmarks.h"
 #include "artus/detail/exchange/tracker_calibration.h"
 #include "artus/detail/exchange/tracker_device.h"
 #include "tests/support/real_time.h"
@@ -134,6 +135,38 @@ TEST(Registration, RefusesTwoPointsAndALine) {
   const auto fit = register_landmarks(touched(line, some_pose()), 1);
   ASSERT_FALSE(fit);
   EXPECT_THAT(fit.error().message, HasSubstr("on one line"));
+}
+
+TEST(Registration, ATouchCountsWhereTheTipRests) {
+  constexpr std::int64_t kStep = 20'000'000;  // ns
+  const CompiledJoint joint = joint_with_landmarks();
+  const Pose X_JR = some_pose();
+  TouchedLandmarks landmarks(joint.landmarks, 1e-3);
+  std::int64_t now = 0;
+  EXPECT_FALSE(landmarks.touch(0));
+  const auto hold = [&](const Vec3& p_J, double trembling, int looks) {
+    for (int k = 0; k < looks; ++k) {
+      Pose X_RN = Pose::Identity();
+      X_RN.translation() = X_JR.inverse() * p_J + Vec3(k % 2 == 0 ? trembling : -trembling, 0, 0);
+      landmarks.see(now += kStep, X_RN);
+    }
+  };
+  for (std::size_t k = 0; k < joint.landmarks.size(); ++k) {
+    hold(joint.landmarks[k].position, 0.5e-3, 10);
+    EXPECT_FALSE(landmarks.touch(k)) << "a fifth of a second at the new place";
+    hold(joint.landmarks[k].position, 2e-3, 30);
+    EXPECT_EQ(landmarks.tip().rest, TipRest::moving);
+    EXPECT_FALSE(landmarks.touch(k));
+    hold(joint.landmarks[k].position, 0.5e-3, 40);
+    EXPECT_TRUE(landmarks.touch(k));
+    EXPECT_EQ(landmarks.n_touched(), k + 1);
+  }
+  const auto fit = landmarks.fit();
+  ASSERT_TRUE(fit) << fit.error().to_string();
+  EXPECT_TRUE(fit->X_JR.isApprox(X_JR, 1e-3));
+  EXPECT_LT(fit->rms, 0.1e-3);
+  landmarks.see(now += kStep, std::nullopt);
+  EXPECT_EQ(landmarks.tip().rest, TipRest::unseen);
 }
 
 TEST(Registration, SaysThatPointsAreInAnotherUnit) {
