@@ -225,7 +225,7 @@ void add_register_command(Command& app, ExitCode& code) {
   command
       ->add_option("--input", options->input,
                    "igtl or shared-memory: watch this hand, and lead through it in a window")
-      ->check(CLI::IsMember({"igtl", "shared-memory"}));
+      ->one_of({"igtl", "shared-memory"});
   add_prefix_option(command, options->prefix);
   add_window_options(command, options->window, options->language);
   command->add_option("--script", options->script, "steps of the page's user, for tests and films");

@@ -75,6 +75,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params
       times_(std::make_unique<SessionTimes>()),
       trace_(std::make_unique<DroppingRing<TracePoint>>(8192)),
       handover_(std::make_unique<ImageHandover>()),
+      prepared_(!options.images && !params.deform),
       start_ns_(monotonic_ns()) {
   controls_.store(controls_of(params_));
 }
@@ -179,6 +180,7 @@ void Session::measure_floor(double seconds) noexcept {
 void Session::run_haptics(const ThreadOptions& options, double floor_seconds) {
   request_priority("haptics", options);
   measure_floor(floor_seconds);
+  wait_until_prepared();
   HapticLoop loop(simulation_, *device_, params_.haptic_rate, haptic_,
                   {times_->haptic_compute, times_->haptic_cpu, times_->haptic_lateness});
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -188,6 +190,16 @@ void Session::run_haptics(const ThreadOptions& options, double floor_seconds) {
     publish(loop.step(take_command()));
     if (gauges_) time_fixed_work(kOperationsOfATick, times_->haptic_fixed);
   }
+}
+
+/// No hand is felt and no clock runs before there is tissue to feel and a picture can be drawn.
+void Session::wait_until_prepared() noexcept {
+  constexpr std::int64_t kLongest = 20'000'000'000;  // ns; assumed: then it begins all the same
+  const std::int64_t end = monotonic_ns() + kLongest;
+  while (!prepared_.load(std::memory_order_acquire) && !stop_.load(std::memory_order_relaxed) &&
+         monotonic_ns() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  start_ns_ = monotonic_ns();
 }
 
 /// The newest packet of the tissue, from tick `tick` on.
@@ -266,6 +278,7 @@ void Session::run_imaging(const ThreadOptions& options) {
     } catch (...) {
       failure = reason_of(std::current_exception());
     }
+    prepared_.store(true, std::memory_order_release);
     if (failure.empty()) continue;
     tell("imaging failed: " + failure + "; trying again");
     handover_->rest();

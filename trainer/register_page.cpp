@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -120,27 +121,23 @@ bool take_insertion(Registering& at) {
   return true;
 }
 
-/// What can be saved of it. Errors: those of the fit; invalid (nothing is known).
-Result<TrackerCalibration> calibration_of(const Registering& at) {
-  TrackerCalibration calibration = at.calibration;
-  if (at.landmarks.n_touched() > 0) {
-    const auto fit = at.landmarks.fit();
-    ARTUS_TRY(fit);
-    calibration.X_JR = fit->X_JR;
-    calibration.registered = true;
-  } else if (!calibration.insertion) {
-    return fail(ErrorCode::invalid, "a registration needs at least three landmarks");
-  }
-  return calibration;
+/// The calibration as it can be saved. Errors: those of the fit; invalid (nothing is known).
+Result<void> finish(Registering& at) {
+  if (at.landmarks.n_touched() == 0 && at.calibration.insertion) return {};
+  const auto fit = at.landmarks.fit();
+  ARTUS_TRY(fit);
+  at.calibration.X_JR = fit->X_JR;
+  at.calibration.registered = true;
+  return {};
 }
 
 }  // namespace
 
 Result<bool> lead_to_registration(
     PageWindow& pages, TouchedLandmarks& landmarks, const SeenNeedle& needle,
-    TrackerCalibration calibration,
+    const TrackerCalibration& calibration,
     const std::function<Result<void>(const TrackerCalibration&)>& saved, Language language) {
-  Registering at{landmarks, needle, std::move(calibration), {}, false, language};
+  Registering at{landmarks, needle, calibration, {}, false, language};
   const std::size_t n = landmarks.landmarks().size();
   std::size_t mark = 0;
   const auto tell = [&](bool done) {
@@ -160,8 +157,8 @@ Result<bool> lead_to_registration(
       if (tell(landmarks.touch(mark))) mark += 1;
     } else if (mark == n) {
       (void)tell(take_insertion(at));
-    } else if (const auto known = calibration_of(at)) {
-      ARTUS_TRY(saved(*known));
+    } else if (const auto known = finish(at)) {
+      ARTUS_TRY(saved(at.calibration));
       return true;
     } else {
       at.bad = true;

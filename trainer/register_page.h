@@ -19,7 +19,7 @@ using SeenNeedle = std::function<std::optional<Pose>()>;
 /// the pages and of `saved`.
 [[nodiscard]] Result<bool> lead_to_registration(
     PageWindow& pages, TouchedLandmarks& landmarks, const SeenNeedle& needle,
-    TrackerCalibration calibration,
+    const TrackerCalibration& calibration,
     const std::function<Result<void>(const TrackerCalibration&)>& saved, Language language);
 
 }  // namespace artus
