@@ -73,19 +73,25 @@ Field make_tear(const ShoulderSize& size) {
   return intersect(intersect(gap, width, mm.length(1)), end, mm.length(2));
 }
 
-// Between head and capsule, from the posterior labrum down to the axillary pouch: wide enough for
-// what a joint takes.
+// Between head and capsule, under the tendons as far as the cartilage goes; its pouch lies beside
+// the posterior labrum.
 Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
-  const double inner = size.head_radius + size.cartilage - 0.8e-3;
-  const Field film =
-      subtract(make_ball(Vec3::Zero(), inner + 2.3e-3), make_ball(Vec3::Zero(), inner), 0.2e-3);
-  return intersect(film, make_ball(mm.at(11, 20, -11), mm.length(19)), 0.4e-3);
+  const double cartilage = size.head_radius + size.cartilage;
+  const Field inside = make_ball(Vec3::Zero(), cartilage - 0.8e-3);
+  const auto film = [&](double thickness) {
+    return subtract(make_ball(Vec3::Zero(), cartilage + thickness), inside, 0.2e-3);
+  };
+  const Field on_cartilage = make_half_space(mm.at(-2, -1, -3), Vec3(-0.78, -0.15, -0.35));
+  const Field behind = make_half_space(mm.at(0, -4, 0), Vec3(0, -1, 0.2));
+  const Field wide = intersect(intersect(film(0.6e-3), behind, mm.length(2)), on_cartilage, 0.4e-3);
+  return unite(wide, intersect(film(1.5e-3), make_ball(mm.at(13, 24.5, -2), mm.length(9)), 0.4e-3),
+               mm.length(1));
 }
 
 // The cleft between both bones and the recess above it, under the capsule.
 Field make_acromioclavicular_cavity(const Millimetres& mm, const Vec3& middle) {
   return unite(make_ellipsoid(middle, mm.at(3, 6, 4.5)),
-               make_ellipsoid(middle + mm.at(0, 0, 3.4), mm.at(5.2, 6.6, 1.3)), mm.length(1));
+               make_ellipsoid(middle + mm.at(0, 0, 2.8), mm.at(11, 10, 1.6)), mm.length(2));
 }
 
 // From the base of the coracoid over the biceps tendon to both tubercles.
@@ -134,7 +140,7 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
        mm.length(80), 1e-3, 0.06e-3},
       {"acromioclavicular_cavity", make_acromioclavicular_cavity(mm, ac), ac, mm.length(30), 0.9e-3,
        0.05e-3},
-      {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(6.5, 8.5, 6.5)), ac, mm.length(40),
+      {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(12.5, 12, 7)), ac, mm.length(40),
        1.3e-3, 0.06e-3},
       {"suprascapular_artery",
        make_tube(make_course({mm.at(63, -2, 42), mm.at(60.5, 12, 31.5), mm.at(60, 24, 19),
