@@ -25,7 +25,8 @@ install(FILES LICENSE DESTINATION share/doc/artus RENAME copyright COMPONENT pro
 install(FILES README.md CHANGELOG.md DESTINATION share/doc/artus COMPONENT program)
 # `programs`: what component `program` brings. `installed`: the libraries as well; no tests and benches.
 add_custom_target(programs)
-foreach(target artus artus_hands artus_validate artus_python)
+foreach(target artus artus_hands artus_validate artus_python artus_engine artus_bridge_touch artus_bridge_force_dimension
+    artus_bridge_haply artus_bridge_virtuose)
   if(TARGET ${target})
     add_dependencies(programs ${target})
   endif()
