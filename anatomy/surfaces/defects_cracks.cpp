@@ -5,8 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include <boost/pending/disjoint_sets.hpp>
-#include <boost/property_map/property_map.hpp>
+#include "artus/detail/anatomy/surfaces/vertex_sets.h"
 
 namespace artus {
 namespace {

@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <set>
 
-#include <boost/pending/disjoint_sets.hpp>
-#include <boost/property_map/property_map.hpp>
-
 #include "artus/detail/anatomy/surfaces/repair_steps.h"
 #include "artus/detail/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/vertex_sets.h"
 
 namespace artus {
 namespace {

@@ -3,13 +3,11 @@
 #include <limits>
 #include <numbers>
 
-#include <boost/pending/disjoint_sets.hpp>
-#include <boost/property_map/property_map.hpp>
-
 #include <Eigen/Geometry>
 
 #include "artus/detail/anatomy/surfaces/repair_steps.h"
 #include "artus/detail/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/vertex_sets.h"
 
 namespace artus {
 namespace {

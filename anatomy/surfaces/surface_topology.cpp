@@ -8,10 +8,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <boost/pending/disjoint_sets.hpp>
-#include <boost/property_map/property_map.hpp>
-
 #include <Eigen/LU>
+
+#include "artus/detail/anatomy/surfaces/vertex_sets.h"
 
 namespace artus {
 namespace {

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <boost/pending/disjoint_sets.hpp>
-
 #include "artus/detail/anatomy/compile/labels/distance_field.h"
 #include "artus/detail/anatomy/compile/labels/distance_field_blocks.h"
+#include "artus/detail/anatomy/surfaces/vertex_sets.h"
 
 namespace artus {
 namespace {
