@@ -67,7 +67,7 @@ std::vector<CrackPair> find_crack_pairs(const SurfaceMesh& mesh, const std::vect
 }
 
 std::vector<std::uint32_t> find_pinches(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses) {
-  boost::disjoint_sets_with_storage<> fans(3 * mesh.triangles.size());
+  VertexSets fans(3 * mesh.triangles.size());
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     for (const EdgeUse* u = first + 1; u < last; ++u)
       for (const auto v : {first->lo, first->hi})

@@ -36,7 +36,7 @@ struct Leaf {
 
 std::size_t drop_outer_flaps(SurfaceMesh& mesh) {
   const auto uses = make_edge_uses(mesh);
-  boost::disjoint_sets_with_storage<> leaves(mesh.triangles.size());
+  VertexSets leaves(mesh.triangles.size());
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     if (last - first == 2) leaves.union_set(first->face, (first + 1)->face);
   });

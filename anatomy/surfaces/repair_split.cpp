@@ -153,7 +153,7 @@ std::optional<std::size_t> turn_faces(SurfaceMesh& mesh) {
 }
 
 std::size_t split_pinches(SurfaceMesh& mesh) {
-  boost::disjoint_sets_with_storage<> fans(3 * mesh.triangles.size());
+  VertexSets fans(3 * mesh.triangles.size());
   for (const auto& l : find_links(mesh, make_edge_uses(mesh)))
     for (const auto v : {l.lo, l.hi})
       fans.union_set(std::size_t{3} * l.a + corner_of(mesh.triangles[l.a], v),

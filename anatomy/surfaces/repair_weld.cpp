@@ -18,7 +18,7 @@ using Welds = std::vector<std::uint32_t>;
 /// crack's side along itself.
 Welds choose_welds(const std::vector<CrackPair>& pairs, const std::vector<bool>& is_barred,
                    std::size_t n_vertices) {
-  boost::disjoint_sets_with_storage<> sets(n_vertices);
+  VertexSets sets(n_vertices);
   std::vector<bool> is_taken(n_vertices, false);
   for (const auto& pair : pairs) {
     if (is_barred[pair.a] || is_barred[pair.b]) continue;

@@ -68,7 +68,7 @@ std::vector<EdgeUse> make_edge_uses(const SurfaceMesh& mesh) {
 }
 
 Pieces find_pieces(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses) {
-  boost::disjoint_sets_with_storage<> sets(mesh.triangles.size());
+  VertexSets sets(mesh.triangles.size());
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     for (const EdgeUse* u = first + 1; u < last; ++u) sets.union_set(first->face, u->face);
   });

@@ -58,7 +58,7 @@ struct DistanceField::Parts {
   std::vector<std::uint32_t> of_sample;  // (n_slots, 9, 9, 9), kNone outside
   std::vector<std::uint32_t> of_block;   // (nx, ny, nz), kNone unless wholly inside
   std::uint32_t n = 0;
-  std::optional<boost::disjoint_sets_with_storage<>> joined;
+  std::optional<VertexSets> joined;
 
   explicit Parts(const DistanceField& field)
       : of_sample(field.samples_.size(), kNone), of_block(field.slots_.size(), kNone) {
