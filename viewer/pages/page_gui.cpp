@@ -15,7 +15,8 @@ namespace artus {
 PageGui::PageGui(Screen& screen, const PageOptions& options)
     : screen_(screen), options_(options), events_(screen.window()) {}
 
-Result<void> PageGui::begin(const std::string& page) {
+Result<void> PageGui::begin(const std::string& page, bool waits) {
+  waits_ = waits;
   steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(next_step_));
   next_step_ = 0;
   waited_ = 0;
@@ -123,11 +124,11 @@ Result<bool> PageGui::run(const std::function<void(const UserEvent&)>& act,
       for (const TimedEvent& event : group) feed(event.event, act);
       pass(1e-3, look);
     }
-    run_script(elapsed, act, look, over);
+    if (!waits_) run_script(elapsed, act, look, over);
     pass(elapsed, look);
     ARTUS_TRY(show());
     if (over()) return false;
-    if (scripted && next_step_ >= steps_.size() && wanted_.empty()) {
+    if (scripted && !waits_ && next_step_ >= steps_.size() && wanted_.empty()) {
       if (options_.script->over()) return true;
       if (had_steps)
         return fail(ErrorCode::failed, "its steps end, and nothing was chosen", "script");

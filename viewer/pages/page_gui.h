@@ -17,9 +17,9 @@ class PageGui {
  public:
   PageGui(Screen& screen, const PageOptions& options);
 
-  /// Takes the script's steps for a page; without a name, those that the last one left. Errors: as
-  /// PageScript::take.
-  [[nodiscard]] Result<void> begin(const std::string& page);
+  /// Takes the script's steps for a page; without a name, those that the last one left. `waits`: a
+  /// page that is over by itself leaves them all to the next. Errors: as PageScript::take.
+  [[nodiscard]] Result<void> begin(const std::string& page, bool waits = false);
   /// Shows looks until `step` says that it is over. `look` draws one; `act` is called with what was
   /// done, before the look that shows it. True: the window was closed, or the script is at its end.
   /// Errors: unreadable (a script's picture), failed (a script that ends nothing).
@@ -47,7 +47,8 @@ class PageGui {
   float scale_ = 0;
   std::vector<ScriptStep> steps_;
   std::size_t next_step_ = 0;
-  double waited_ = 0;  // s
+  double waited_ = 0;   // s
+  bool waits_ = false;  // this page takes no steps
   std::vector<std::filesystem::path> wanted_;
 };
 

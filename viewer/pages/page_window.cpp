@@ -45,7 +45,7 @@ class PageWindow::Shown {
     page_ = std::move(page);
     answer_.reset();
     scroll_ = true;
-    ARTUS_TRY(gui_.begin(page_.name));
+    ARTUS_TRY(gui_.begin(page_.name, page_.bar != nullptr || page_.choices.empty()));
     const auto closed = gui_.run([this](const UserEvent& event) { act(event); }, [this] { look(); },
                                  [this] { return over(); });
     ARTUS_TRY(closed);
