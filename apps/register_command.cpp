@@ -18,9 +18,9 @@
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/exchange/tracker_calibration.h"
 #include "artus/detail/session/session_thread.h"
-#include "artus/detail/session/shm/shared_memory_device.h"
 #include "artus/detail/trainer/register_page.h"
 #include "artus/detail/training/scenario.h"
+#include "artus/session/shared_memory_device.h"
 
 namespace artus {
 namespace {
