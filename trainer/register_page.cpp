@@ -6,6 +6,7 @@
 
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {
@@ -85,7 +86,7 @@ Page make_page(Registering& at) {
         beside = fill(translate(at.language, "off by {} mm"),
                       {in_millimetres(fit->residuals[of_fit++])});
     }
-    page.choices.push_back({translate(at.language, landmarks[k].name.c_str()),
+    page.choices.push_back({clinical_name(at.language, landmarks[k].name),
                             beside,
                             at.landmarks.is_touched(k) ? Tone::good : Tone::plain,
                             {},
