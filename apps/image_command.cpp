@@ -9,12 +9,15 @@
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
 #include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
 #include "artus/detail/echo/display/rf_lines.h"
 #include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/echo/display/seen_structures.h"
 #include "artus/detail/exchange/line_file.h"
+#include "artus/detail/reports/views_page.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -35,6 +38,7 @@ struct ImageOptions {
   double doppler_time_s = 0.125;
   double doppler_limit_cm_s = 10;
   bool json = false;
+  std::string language;
 };
 
 /// The picture that the flags ask for.
@@ -125,6 +129,60 @@ ExitCode run_image(const ImageOptions& options) {
   return ExitCode::ok;
 }
 
+constexpr const char* kAllViews = "all";
+
+/// One view with its picture.
+Result<ShownView> show_view(const ImageOptions& options, const StandardView& view) {
+  JointOptions joint = options.joint;
+  joint.view = view.name;
+  auto loaded = load_view(joint, options.view, true);
+  ARTUS_TRY(loaded);
+  const View& v = loaded->view;
+  Renderer renderer(loaded->scene, v.transducer, v.settings);
+  const Frame& frame = renderer.render(loaded->X_JP, loaded->needle);
+  const LabelImage labels = render_labels(*loaded->scene, loaded->X_JP, v.transducer, v.settings);
+  return ShownView{view, picture_of(frame, v, options), find_seen(labels, loaded->joint(), view)};
+}
+
+/// Pictures of all views in a folder, and a page of them.
+ExitCode run_all_views(ImageOptions options) {
+  options.joint.view.clear();
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  if (!joint) return report_error(joint.error(), options.json);
+  if ((*joint)->views.empty())
+    return report_error({ErrorCode::not_found, "the joint has no views", (*joint)->name},
+                        options.json);
+  std::error_code made;
+  std::filesystem::create_directories(options.out, made);
+  std::vector<ShownView> all;
+  nlohmann::json report = nlohmann::json::array();
+  for (const StandardView& view : (*joint)->views) {
+    auto shown = show_view(options, view);
+    if (!shown) return report_error(shown.error(), options.json);
+    const auto file = options.out / (view.name + ".png");
+    if (const auto written = write_image(shown->picture, file); !written)
+      return report_error(written.error(), options.json);
+    nlohmann::json seen = nlohmann::json::array();
+    for (const SeenStructure& s : shown->seen)
+      seen.push_back({{"structure", s.structure},
+                      {"depth_mm", s.depth / kMillimetre},
+                      {"share", s.share},
+                      {"side", s.side},
+                      {"fault", to_sentence(s.fault, Language::english)}});
+    report.push_back({{"view", view.name}, {"image", file.string()}, {"seen", std::move(seen)}});
+    all.push_back(std::move(*shown));
+  }
+  const auto page = options.out / "index.html";
+  const auto written =
+      write_text(page, make_views_page((*joint)->name, all, language_of(options.language)));
+  if (!written) return report_error(written.error(), options.json);
+  if (options.json)
+    std::cout << report.dump(2) << '\n';
+  else
+    std::printf("%s: %zu views\n", page.c_str(), all.size());
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 void add_image_command(Command& app, ExitCode& code) {
@@ -136,6 +194,8 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --needle default -o needle.png --envelope envelope.tiff\n"
       "  artus image -j meshes/shoulder --probe=-39.6,-44.2,-5/0.66,0.75,0/0.75,-0.66,0 -o "
       "groove.png\n"
+      "  artus image -j meshes/shoulder --view biceps_groove -o groove.png\n"
+      "  artus image -j meshes/knee --view all -o views          pictures and a page of them\n"
       "  artus image -j meshes/shoulder --press-n 3 -o pressed.png\n"
       "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-direction in -o "
       "tent.png\n"
@@ -147,7 +207,10 @@ void add_image_command(Command& app, ExitCode& code) {
   add_view_options(command, options->view);
   add_press_options(command, options->press);
   add_drag_option(command, options->press);
-  command->add_option("-o,--out", options->out, "image file (.png, .jpg, .tiff)")->required();
+  command
+      ->add_option("-o,--out", options->out,
+                   "image file (.png, .jpg, .tiff); with --view all a folder")
+      ->required();
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
   command->add_option(
@@ -169,7 +232,10 @@ void add_image_command(Command& app, ExitCode& code) {
                    "velocity along the beam at which colours wrap round, cm/s (default: 10)")
       ->check(number_in(0.1, 1000));
   command->add_flag("--json", options->json, "machine-readable output");
-  on_run(command, code, [options] { return run_image(*options); });
+  add_language_option(command, options->language);
+  on_run(command, code, [options] {
+    return options->joint.view == kAllViews ? run_all_views(*options) : run_image(*options);
+  });
 }
 
 }  // namespace artus

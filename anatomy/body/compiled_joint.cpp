@@ -158,8 +158,11 @@ std::string to_bytes(const CompiledJoint& joint) {
   put_regions(out, joint.regions);
   put_scene(out, joint);
   put_mesh(out, joint.mesh);
-  if (!joint.spaces.empty() || !joint.poses.empty()) put_spaces(out, joint.spaces);
-  if (!joint.poses.empty()) put_poses(out, joint.poses);
+  const bool has_views = !joint.views.empty();
+  const bool has_poses = has_views || !joint.poses.empty();
+  if (has_poses || !joint.spaces.empty()) put_spaces(out, joint.spaces);
+  if (has_poses) put_poses(out, joint.poses);
+  if (has_views) put_views(out, joint.views);
   return out.bytes();
 }
 
@@ -174,6 +177,7 @@ CompiledJoint from_bytes(ByteReader& in) {
   joint.mesh = get_mesh(in);
   if (!in.at_end()) joint.spaces = get_spaces(in);
   if (!in.at_end()) joint.poses = get_poses(in);
+  if (!in.at_end()) joint.views = get_views(in);
   return joint;
 }
 
@@ -257,6 +261,7 @@ std::string compute_joint_digest(const CompiledJoint& joint) {
   CompiledJoint body = joint;
   body.source_digest.clear();  // the same body may come of other sources
   body.poses.clear();          // and be held in other ways
+  body.views.clear();          // and be looked at from elsewhere
   return in_hexadecimal(hash_bytes(to_bytes(body)));
 }
 

@@ -10,6 +10,7 @@
 #include "artus/detail/anatomy/body/joint_pose.h"
 #include "artus/detail/anatomy/body/region.h"
 #include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/standard_view.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/anatomy/body/tissue.h"
 
@@ -27,9 +28,10 @@ struct CompiledJoint {
   Pose X_JP_default = Pose::Identity();
   Pose X_JN_default = Pose::Identity();
   std::vector<PlannedInjection> injections;
-  std::string source_digest;     ///< hex digest of joint file, tissues and surfaces
-  std::vector<Space> spaces;     ///< the joint's own; make_joint_spaces adds the tissues'
-  std::vector<JointPose> poses;  ///< how it may be held (pose_joint)
+  std::string source_digest;        ///< hex digest of joint file, tissues and surfaces
+  std::vector<Space> spaces;        ///< the joint's own; make_joint_spaces adds the tissues'
+  std::vector<JointPose> poses;     ///< how it may be held (pose_joint)
+  std::vector<StandardView> views;  ///< what protocols ask to be shown of it
 
   [[nodiscard]] const Tissue& tissue_of(RegionId region) const {
     return tissues[regions[region].tissue];

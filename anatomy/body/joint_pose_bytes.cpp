@@ -6,6 +6,15 @@
 #include "artus/detail/core/rigid.h"
 
 namespace artus {
+namespace {
+
+Pose get_rigid(ByteReader& in) {
+  const Pose pose = get_pose(in);
+  if (!is_rigid(pose)) in.refuse();
+  return pose;
+}
+
+}  // namespace
 
 void put_pose(ByteWriter& out, const Pose& pose) {
   for (Eigen::Index column = 0; column < 4; ++column) {
@@ -37,11 +46,6 @@ void put_poses(ByteWriter& out, const std::vector<JointPose>& poses) {
 }
 
 std::vector<JointPose> get_poses(ByteReader& in) {
-  const auto rigid = [&in] {
-    const Pose pose = get_pose(in);
-    if (!is_rigid(pose)) in.refuse();
-    return pose;
-  };
   std::vector<JointPose> poses(in.get_count(4));
   for (JointPose& p : poses) {
     p.name = in.get_text();
@@ -49,11 +53,48 @@ std::vector<JointPose> get_poses(ByteReader& in) {
     p.motions.resize(in.get_count(4));
     for (BoneMotion& m : p.motions) {
       m.structure = in.get_text();
-      m.X_J = rigid();
+      m.X_J = get_rigid(in);
     }
-    if (in.get<std::uint8_t>() != 0) p.X_JP = rigid();
+    if (in.get<std::uint8_t>() != 0) p.X_JP = get_rigid(in);
   }
   return poses;
+}
+
+void put_views(ByteWriter& out, const std::vector<StandardView>& views) {
+  out.put(static_cast<std::uint32_t>(views.size()));
+  for (const StandardView& v : views) {
+    for (const std::string* text : {&v.name, &v.title, &v.source, &v.shows, &v.pose})
+      out.put(std::string_view(*text));
+    put_pose(out, v.X_JP);
+    out.put(v.depth);
+    out.put(static_cast<std::uint32_t>(v.sights.size()));
+    for (const ViewSight& s : v.sights) {
+      out.put(std::string_view(s.structure));
+      out.put(s.least);
+      out.put(s.most);
+      out.put(static_cast<std::uint8_t>(s.side));
+    }
+  }
+}
+
+std::vector<StandardView> get_views(ByteReader& in) {
+  std::vector<StandardView> views(in.get_count(4));
+  for (StandardView& v : views) {
+    for (std::string* text : {&v.name, &v.title, &v.source, &v.shows, &v.pose})
+      *text = in.get_text();
+    v.X_JP = get_rigid(in);
+    v.depth = in.get<double>();
+    v.sights.resize(in.get_count(4));
+    for (ViewSight& s : v.sights) {
+      s.structure = in.get_text();
+      s.least = in.get<double>();
+      s.most = in.get<double>();
+      const auto side = in.get<std::uint8_t>();
+      if (side > 2) in.refuse();
+      s.side = static_cast<ViewSide>(side);
+    }
+  }
+  return views;
 }
 
 }  // namespace artus

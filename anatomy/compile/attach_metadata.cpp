@@ -80,6 +80,9 @@ std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
 void follow_skin(CompiledJoint& joint) {
   Pose& X_JP = joint.X_JP_default;
   X_JP.translation() = moved_onto_skin(joint, X_JP.translation(), X_JP.linear().col(2));
+  for (StandardView& view : joint.views)
+    view.X_JP.translation() =
+        moved_onto_skin(joint, view.X_JP.translation(), view.X_JP.linear().col(2));
   for (PlannedInjection& pass : joint.injections)
     pass.entry = moved_onto_skin(joint, pass.entry, (pass.target - pass.entry).normalized());
 }
@@ -100,6 +103,7 @@ CompiledJoint attach_metadata(const JointFile& file, TetMesh mesh, std::string d
   joint.X_JP_default = poses.X_JP;
   joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;
+  joint.views = file.views;
   if (std::get<SurfaceFile>(file.body.shape).grow != 0) follow_skin(joint);
   joint.spaces = file.spaces;
   joint.poses = file.poses;

@@ -14,6 +14,7 @@
 #include "artus/detail/anatomy/source/joint_space_toml.h"
 #include "artus/detail/anatomy/source/joint_structure.h"
 #include "artus/detail/anatomy/source/joint_variant_toml.h"
+#include "artus/detail/anatomy/source/joint_view_toml.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 
@@ -285,6 +286,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   read_probe(toml, unit, joint);
   read_needles(toml, unit, joint);
   joint.poses = read_poses(toml, unit, joint);
+  joint.views = read_views(toml, unit, joint);
   auto spaces = read_spaces(toml, region_names(joint));
   ARTUS_TRY(spaces);
   joint.spaces = std::move(*spaces);

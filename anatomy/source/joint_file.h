@@ -15,6 +15,7 @@
 #include "artus/detail/anatomy/body/joint_pose.h"
 #include "artus/detail/anatomy/body/region.h"
 #include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/standard_view.h"
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/anatomy/source/joint_parameter.h"
 #include "artus/detail/anatomy/source/joint_variant.h"
@@ -124,6 +125,7 @@ struct JointFile {
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
   std::vector<Space> spaces;                 ///< where liquid may go, as far as the file says
   std::vector<JointPose> poses;              ///< how the joint may be held
+  std::vector<StandardView> views;           ///< what protocols ask to be shown
   std::vector<JointVariant> variants;        ///< all that the file declares, which are chosen
   std::vector<JointParameter> parameters;    ///< all that the file declares
   std::vector<PatientValue> patient;         ///< whose joint it is; empty: as modelled

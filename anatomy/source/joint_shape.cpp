@@ -8,9 +8,9 @@
 namespace artus {
 namespace {
 
-constexpr std::array<std::string_view, 12> kShapeNothing{
-    "title",  "side",      "axes",   "surfaces",       "landmark", "probe",
-    "needle", "injection", "tissue", "tissue_library", "space",    "pose"};
+constexpr std::array<std::string_view, 13> kShapeNothing{
+    "title",     "side",   "axes",           "surfaces", "landmark", "probe", "needle",
+    "injection", "tissue", "tissue_library", "space",    "pose",     "view"};
 
 }  // namespace
 

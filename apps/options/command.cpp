@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 #include <locale>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -17,6 +18,7 @@
 
 #include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/body/joint_path.h"
+#include "artus/detail/anatomy/body/standard_view.h"
 #include "artus/detail/core/plain_reason.h"
 #include "artus/detail/soft/solver/pose_joint.h"
 
@@ -121,7 +123,36 @@ void add_joint_options(Command* command, JointOptions& options) {
                     "leave out structures that cannot be repaired instead of stopping");
   command->add_option("--pose", options.pose,
                       "how the joint is held: a [pose.NAME] of its file; else as it was compiled");
+  command->add_option("--view", options.view,
+                      "where the probe stands: a [view.NAME] of the joint's file, held as it says");
 }
+
+namespace {
+
+/// The joint held and looked at as asked for; empty: as it is.
+Result<CompiledJoint> in_pose(CompiledJoint joint, const std::string& pose_name,
+                              const std::string& view_name) {
+  std::string held = pose_name;
+  std::optional<Pose> X_JP;
+  if (!view_name.empty()) {
+    const auto view = find_view(joint, view_name);
+    ARTUS_TRY(view);
+    if (held.empty()) held = view->pose;
+    if (held == view->pose) X_JP = view->X_JP;
+    joint.X_JP_default = view->X_JP;  // goes with the skin into a pose that is not the view's
+  }
+  if (!held.empty()) {
+    const auto pose = find_pose(joint, held);
+    ARTUS_TRY(pose);
+    auto posed = pose_joint(joint, *pose);
+    ARTUS_TRY(posed);
+    joint = std::move(posed->joint);
+  }
+  if (X_JP) joint.X_JP_default = *X_JP;
+  return joint;
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
                                                   const Progress& progress) {
@@ -133,14 +164,9 @@ Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
       options.patient.empty() ? options.joint : with_patient(options.joint, options.patient),
       load_options, progress);
   ARTUS_TRY(joint);
-  if (!options.pose.empty()) {
-    const auto pose = find_pose(*joint, options.pose);
-    ARTUS_TRY(pose);
-    auto posed = pose_joint(*joint, *pose);
-    ARTUS_TRY(posed);
-    return std::make_shared<const CompiledJoint>(std::move(posed->joint));
-  }
-  return std::make_shared<const CompiledJoint>(std::move(*joint));
+  auto held = in_pose(std::move(*joint), options.pose, options.view);
+  ARTUS_TRY(held);
+  return std::make_shared<const CompiledJoint>(std::move(*held));
 }
 
 nlohmann::json to_json_mm(const Vec3& p) {

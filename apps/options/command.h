@@ -41,20 +41,23 @@ ExitCode report_error(const Error& error, bool json);
 /// terminal, one line a step otherwise. `quiet` gives one that prints nothing.
 [[nodiscard]] Progress make_progress_printer(bool quiet);
 
-/// --joint, --surfaces, --cache, --skip-refused, --pose: where a joint comes from, how it is held.
+/// --joint, --surfaces, --cache, --skip-refused, --pose, --view: where a joint comes from, how it
+/// is held, and from where it is looked at.
 struct JointOptions {
   std::filesystem::path joint;
   std::filesystem::path surfaces;
   std::filesystem::path cache;
   bool skip_refused = false;
   std::string pose;
+  std::string view;
   std::string patient;
 };
 /// --patient, for commands whose --patient is not that of the needle's forces.
 void add_patient_option(Command* command, std::string& patient);
 void add_joint_options(Command* command, JointOptions& options);
 
-/// Loads a compiled file, or compiles a joint folder (kept for the next time), in its pose.
+/// Loads a compiled file, or compiles a joint folder (kept for the next time), in its pose, its
+/// default probe where its view has it.
 [[nodiscard]] Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
                                                                 const Progress& progress);
 

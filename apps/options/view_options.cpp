@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "artus/detail/anatomy/body/standard_view.h"
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/command.h"
 #include "artus/detail/core/units.h"
@@ -213,6 +214,8 @@ std::optional<NeedleView> View::needle(const CompiledJoint& joint) const {
 double depth_for(const CompiledJoint& joint) {
   constexpr double kBeyondTip = 8e-3;  // m
   constexpr double kStep = 10e-3;      // m
+  if (const StandardView* view = view_at_default_probe(joint); view != nullptr && view->depth > 0)
+    return view->depth;
   const Vec3 p_PN = joint.X_JP_default.inverse() * joint.X_JN_default.translation();
   const double depth = kStep * std::ceil((p_PN.z() + kBeyondTip) / kStep - 1e-9);
   return std::clamp(depth, kUsualDepth * kMillimetre, ImageRanges::depth.high);

@@ -68,7 +68,8 @@ struct View {
 /// Errors: malformed or invalid, with the flag as place; those of the transducer's file.
 [[nodiscard]] Result<View> make_view(const ViewOptions& options);
 
-/// Deep enough to show the joint's needle as planned, in steps of 10 mm; 40 mm or more, m.
+/// As the view says that the joint's default probe stands at; else deep enough to show the joint's
+/// needle as planned, in steps of 10 mm; 40 mm or more, m.
 [[nodiscard]] double depth_for(const CompiledJoint& joint);
 
 /// The shortest needle of those that are sold (35 to 200 mm) whose hub stays 8 mm out of the skin

@@ -18,6 +18,13 @@ using Field = std::function<double(const Vec3&)>;
 [[nodiscard]] Field make_ellipsoid(const Vec3& centre, const Vec3& half_axes,
                                    const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
+/// A cushion that lies along the surface of `side`, its middle surface `height` outside of it: an
+/// ellipsoid of the half axes along the first two columns of `axes` (a rotation) and across that
+/// surface, thickest at `centre` (a point at about that height) and thinning out to nothing at its
+/// rim, the sooner the more the surface bends back from the third column. Distance to first order.
+[[nodiscard]] Field make_cushion(Field side, double height, const Vec3& centre,
+                                 const Vec3& half_axes, const Eigen::Matrix3d& axes);
+
 /// What lies on the side of the plane through `point` that `outward` does not point to. Exact.
 [[nodiscard]] Field make_half_space(const Vec3& point, const Vec3& outward);
 

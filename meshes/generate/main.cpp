@@ -13,6 +13,7 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/leg_measures.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
@@ -63,11 +64,30 @@ std::vector<artus::Solid> solids_of(const Options& options) {
   return artus::make_simple_shoulder(size);
 }
 
+std::vector<artus::Measure> measures_of(const Options& options) {
+  const double radius = options.head_radius_mm * artus::kMillimetre;
+  if (options.joint == "shoulder") {
+    artus::ShoulderSize size;
+    size.head_radius = radius;
+    return artus::measure_shoulder(size);
+  }
+  if (options.joint == "hip") {
+    artus::HipSize size;
+    size.head_radius = radius;
+    return artus::measure_hip(size);
+  }
+  artus::KneeSize size;
+  size.scale = options.head_radius_mm / kUsualHead;
+  return artus::measure_knee(size);
+}
+
 int write_measures(const Options& options) {
-  artus::ShoulderSize size;
-  size.head_radius = options.head_radius_mm * artus::kMillimetre;
+  if (options.joint == "simple-shoulder") {
+    std::fprintf(stderr, "artus_generate_meshes: simple-shoulder has no published lengths\n");
+    return 1;
+  }
   const auto written =
-      artus::write_text(options.measures, to_markdown(artus::measure_shoulder(size)));
+      artus::write_text(options.measures, to_markdown(options.joint, measures_of(options)));
   if (!written) std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
   return written ? 0 : 1;
 }
@@ -98,7 +118,7 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"simple-shoulder", "shoulder", "knee", "hip"}));
   auto* out = app.add_option("--out", options.out, "folder for the PLY files, made when missing");
   auto* measures = app.add_option("--measures", options.measures,
-                                  "in place of it: lengths of the shoulder beside published ones");
+                                  "in place of it: lengths of the joint beside published ones");
   out->excludes(measures);
   app.add_option("--head-radius", options.head_radius_mm,
                  "radius of the humeral or femoral head, mm; a knee's size follows")

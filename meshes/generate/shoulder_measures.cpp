@@ -4,50 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/core/check.h"
-#include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/meshes/generate/scapular_frame.h"
 
 namespace artus {
 namespace {
 
-constexpr double kStep = 0.02e-3;  // m along a line
-
-Field field_of(const std::vector<Solid>& solids, const std::string& name) {
-  const auto at =
-      std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.name == name; });
-  ARTUS_REQUIRE(at != solids.end(), "the shoulder has no such solid");
-  return at->field;
-}
-
-/// What of a line from `from` over `length` lies in a solid and in none of those before it, m.
-double inside(const Vec3& from, const Vec3& along, double length, const Field& solid,
-              const std::vector<Field>& before) {
-  double sum = 0;
-  for (double t = 0; t < length; t += kStep) {
-    const Vec3 p = from + t * along;
-    if (solid(p) >= 0) continue;
-    const bool taken =
-        std::any_of(before.begin(), before.end(), [&](const Field& f) { return f(p) < 0; });
-    if (!taken) sum += kStep;
-  }
-  return sum;
-}
-
-/// The last point of a line out of `from` that lies in the solid, m from `from`.
-double last(const Vec3& from, const Vec3& along, double length, const Field& solid) {
-  double at = 0;
-  for (double t = 0; t < length; t += kStep)
-    if (solid(from + t * along) < 0) at = t;
-  return at;
-}
+constexpr double kStep = kMeasureStep;
 
 double groove_depth(const Field& bone) {
   const Vec3 groove = Vec3(-17.2, -20, 0).normalized();
   const auto radius = [&](double degrees) {
     const Vec3 out = Eigen::AngleAxisd(degrees * kDegree, Vec3::UnitZ()) * groove;
-    return last(Vec3::Zero(), out, 40e-3, bone);
+    return last_inside(Vec3::Zero(), out, 40e-3, bone);
   };
   double lateral = 0;
   double medial = 0;
@@ -65,7 +34,7 @@ double footprint_width(const ScapularFrame& frame, const Field& bone, const Fiel
   Vec3 before = Vec3::Zero();
   for (double degrees = 25; degrees < 75; degrees += 0.25) {
     const Vec3 out = ScapularFrame::outward(degrees);
-    const double on_bone = last(frame.at(0, 2, 0), out, 40e-3, bone);
+    const double on_bone = last_inside(frame.at(0, 2, 0), out, 40e-3, bone);
     const Vec3 p = frame.at(0, 2, 0) + on_bone * out;
     const Vec3 over = p + 0.1e-3 * out;
     const bool inserts = cartilage(over) >= 0 && tendon(over) < 0;
@@ -81,7 +50,7 @@ double acromiohumeral_distance(const ScapularFrame& frame, const Field& scapula,
   for (double u = -6; u <= 10; u += 2)
     for (double v = -6; v <= 22; v += 2) {
       const Vec3 foot = frame.at(u, v, 0);
-      const double head = last(foot, Vec3::UnitZ(), 30e-3, bone);
+      const double head = last_inside(foot, Vec3::UnitZ(), 30e-3, bone);
       for (double z = head + 1e-3; head > 0 && z < 50e-3; z += kStep)
         if (scapula(foot + z * Vec3::UnitZ()) < 0) {
           least = std::min(least, z - head);
@@ -101,7 +70,7 @@ std::vector<Measure> measure_shoulder(const ShoulderSize& size) {
   const Field supraspinatus = field_of(solids, "supraspinatus_tendon");
   const std::vector<Field> head{bone, cartilage};
   const auto over_head = [&](const Field& tendon, const Vec3& out) {
-    return inside(15e-3 * out, out, 25e-3, tendon, head) / kMillimetre;
+    return length_inside(15e-3 * out, out, 25e-3, tendon, head) / kMillimetre;
   };
   const Vec3 up = ScapularFrame::outward(12);
   const Vec3 back = Vec3(-6, 24.4, 7.2).normalized();
@@ -111,15 +80,15 @@ std::vector<Measure> measure_shoulder(const ShoulderSize& size) {
   return {
       {"radius of the humeral head", size.head_radius / kMillimetre, 19, 28, "[Iannotti1992]"},
       {"top of the head above the superior facet",
-       (size.head_radius - last(facet, Vec3::UnitZ(), 30e-3, bone)) / kMillimetre, 3.7, 9.3,
+       (size.head_radius - last_inside(facet, Vec3::UnitZ(), 30e-3, bone)) / kMillimetre, 3.7, 9.3,
        "[NormalGH] 6.5 +- 1.4, 2 SD"},
       {"acromiohumeral distance",
        acromiohumeral_distance(frame, field_of(solids, "scapula"), bone) / kMillimetre, 3.3, 15.7,
        "[NormalGH] 9.5 +- 3.1, 2 SD"},
       {"depth of the bicipital groove", groove_depth(bone) / kMillimetre, 3.8, 6.3, "[Groove2024]"},
       {"cartilage of the head, in its middle",
-       inside(15e-3 * Vec3(0.64, 0.30, 0.71).normalized(), Vec3(0.64, 0.30, 0.71).normalized(),
-              15e-3, cartilage, {bone}) /
+       length_inside(15e-3 * Vec3(0.64, 0.30, 0.71).normalized(),
+                     Vec3(0.64, 0.30, 0.71).normalized(), 15e-3, cartilage, {bone}) /
            kMillimetre,
        1.2, 3.2, "[CartilageGH] 2.2 +- 0.5, 2 SD"},
       {"supraspinatus tendon over the head", over_head(supraspinatus, up), 3.9, 6.6,
@@ -134,24 +103,13 @@ std::vector<Measure> measure_shoulder(const ShoulderSize& size) {
        footprint_width(frame, bone, cartilage, supraspinatus) / kMillimetre, 12.5, 16.9,
        "[Karthikeyan2014] 13.5 and 14.9, [Curtis2006] 16; assumed: 1 mm about them"},
       {"supraspinatus in the fossa",
-       inside(below_belly, Vec3::UnitZ(), 60e-3, field_of(solids, "supraspinatus"), {}) /
+       length_inside(below_belly, Vec3::UnitZ(), 60e-3, field_of(solids, "supraspinatus"), {}) /
            kMillimetre,
        13, 21.4, "[Han2012] 17.2 +- 2.1, 2 SD"},
       {"subacromial bursa",
-       inside(15e-3 * up, up, 25e-3, field_of(solids, "subacromial_bursa"), {}) / kMillimetre, 0, 1,
-       "[Prev] below 1 in 71 of 200"}};
-}
-
-std::string to_markdown(const std::vector<Measure>& measures) {
-  std::string page =
-      "# The bundled shoulder beside published adults\n\n"
-      "Written by `artus_generate_meshes shoulder --measures FILE`; a test of `tests/meshes` holds "
-      "what is within its range and what is not.\n\n"
-      "| length | is, mm | adults, mm | within | source |\n|---|---|---|---|---|\n";
-  for (const Measure& m : measures)
-    page += printed("| %s | %.1f | %.1f - %.1f | %s | %s |\n", m.what.c_str(), m.value, m.least,
-                    m.most, m.is_within() ? "yes" : "no", m.source.c_str());
-  return page;
+       length_inside(15e-3 * up, up, 25e-3, field_of(solids, "subacromial_bursa"), {}) /
+           kMillimetre,
+       0, 1, "[Prev] below 1 in 71 of 200"}};
 }
 
 }  // namespace artus

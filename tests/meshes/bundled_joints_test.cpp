@@ -12,6 +12,8 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/leg_measures.h"
+#include "artus/detail/meshes/generate/measures.h"
 #include "artus/detail/meshes/generate/scapular_frame.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
@@ -240,15 +242,62 @@ TEST(BundledJoints, ShoulderHasTheGrooveAndTheTuberosityOfAnAdults) {
   EXPECT_NEAR(24 - 1e3 * top, 8, 3.2 + 1);
 }
 
+void expect_told(const std::string& joint, const std::vector<Measure>& measures) {
+  const auto told =
+      read_bytes(artus::test::source_dir() / ("docs/results/" + joint + "-measures.md"));
+  ASSERT_TRUE(told) << told.error().to_string();
+  EXPECT_EQ(*told, to_markdown(joint, measures))
+      << "artus_generate_meshes " << joint << " --measures FILE";
+}
+
 TEST(BundledJoints, ShoulderHasLengthsOfAdultsAndTheTableTellsThem) {
   const std::vector<Measure> measures = measure_shoulder({});
   for (const Measure& m : measures) {
     const bool is_known_gap = m.what == "subscapularis tendon over the head";  // 6.3 mm
     EXPECT_EQ(m.is_within(), !is_known_gap) << m.what << ": " << m.value << " mm";
   }
-  const auto told = read_bytes(artus::test::source_dir() / "docs/results/shoulder-measures.md");
-  ASSERT_TRUE(told) << told.error().to_string();
-  EXPECT_EQ(*told, to_markdown(measures)) << "artus_generate_meshes shoulder --measures FILE";
+  expect_told("shoulder", measures);
+}
+
+TEST(BundledJoints, KneeAndHipHaveLengthsOfAdultsAndTheirTablesTellThem) {
+  const std::vector<Measure> knee = measure_knee({});
+  const std::vector<Measure> hip = measure_hip({});
+  for (const Measure& m : knee) EXPECT_TRUE(m.is_within()) << m.what << ": " << m.value;
+  for (const Measure& m : hip) {
+    const bool is_full = m.what.ends_with("the recess full");  // 9.2 mm: as drawn, with fluid in it
+    EXPECT_EQ(m.is_within(), !is_full) << m.what << ": " << m.value;
+  }
+  EXPECT_GE(measure_shoulder({}).size() + knee.size() + hip.size(), 20U);
+  expect_told("knee", knee);
+  expect_told("hip", hip);
+}
+
+// What of a line from the front lies in each structure in turn, those before it taking their share.
+std::vector<std::string> met_from_the_front(const std::vector<Solid>& solids, const Vec3& from,
+                                            const std::vector<std::string>& priority) {
+  std::vector<std::string> met;
+  for (double t = 0; t < 60e-3; t += 0.05e-3) {
+    const Vec3 p = from + Vec3(0, t, 0);
+    const auto in = std::find_if(priority.begin(), priority.end(), [&](const std::string& name) {
+      return field_of(solids, name)(p) < 0;
+    });
+    if (in != priority.end() && (met.empty() || met.back() != *in)) met.push_back(*in);
+  }
+  return met;
+}
+
+TEST(BundledJoints, KneesRecessLiesBetweenItsTwoFatPads) {
+  const std::vector<std::string> priority{"femur", "suprapatellar_recess", "quadriceps_tendon",
+                                          "quadriceps_fat_pad", "prefemoral_fat_pad"};
+  const std::vector<std::string> expected{"quadriceps_tendon", "quadriceps_fat_pad",
+                                          "suprapatellar_recess", "prefemoral_fat_pad", "femur"};
+  EXPECT_EQ(met_from_the_front(make_knee({}), Vec3(-1e-3, -58e-3, 48e-3), priority), expected);
+}
+
+TEST(BundledJoints, HipsRecessLiesOnTheNeckUnderTheCapsuleUnderTheMuscle) {
+  const std::vector<std::string> priority{"femur", "anterior_recess", "hip_capsule", "iliopsoas"};
+  const std::vector<std::string> expected{"iliopsoas", "hip_capsule", "anterior_recess", "femur"};
+  EXPECT_EQ(met_from_the_front(make_hip({}), Vec3(-13e-3, -60e-3, -10e-3), priority), expected);
 }
 
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {

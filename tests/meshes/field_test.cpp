@@ -43,6 +43,27 @@ TEST(Field, EllipsoidIsZeroAtTheEndsOfItsTurnedAxes) {
   EXPECT_LT(field(Vec3(0.1, 0, 0)), 0);
 }
 
+TEST(Field, CushionIsThickestInItsMiddleAndThinsOutToItsRimOnTheSideItLiesOn) {
+  const Field side = make_ball(Vec3::Zero(), 1);
+  Eigen::Matrix3d axes;
+  axes << Vec3::UnitX(), -Vec3::UnitY(), -Vec3::UnitZ();
+  const Field cushion = make_cushion(side, 0.1, Vec3(0, 0, -1.1), Vec3(0.5, 0.4, 0.1), axes);
+  EXPECT_NEAR(cushion(Vec3(0, 0, -1)), 0, 1e-9);
+  EXPECT_NEAR(cushion(Vec3(0, 0, -1.2)), 0, 1e-9);
+  EXPECT_LT(cushion(Vec3(0, 0, -1.1)), -0.09);
+  const auto thickness = [&](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec3 out(std::sin(angle), 0, -std::cos(angle));
+    double sum = 0;
+    for (double r = 0.9; r < 1.4; r += 1e-3) sum += cushion(r * out) < 0 ? 1e-3 : 0;
+    return sum;
+  };
+  EXPECT_NEAR(thickness(0), 0.2, 5e-3);
+  EXPECT_LT(thickness(20), thickness(10));
+  EXPECT_EQ(thickness(30), 0);
+  EXPECT_GT(cushion(Vec3(0, 0, 1.1)), 0) << "nothing on the far side";
+}
+
 TEST(Field, UnionWithoutBlendIsTheNearerOfBoth) {
   const Field a = make_ball(Vec3(-0.2, 0, 0), 0.4);
   const Field b = make_ball(Vec3(0.3, 0, 0), 0.3);
