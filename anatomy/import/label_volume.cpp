@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 
