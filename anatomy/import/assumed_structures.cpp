@@ -45,7 +45,8 @@ class Assumer {
                   "no two bones are near each other; --between says between which there is one",
                   "--assume recess");
     const auto& [a, b] = **pair;
-    add(unused("joint_recess"), "bursa",
+    // Of the joint's fluid, so that it takes liquid as a joint does and not as a bursa.
+    add(unused("joint_recess"), "synovial_fluid",
         gap({with_cartilage(a), with_cartilage(b)}, kRecess, kRecessWithin),
         "a recess of " + in_mm(kRecess) + " mm between '" + name(a) + "' and '" + name(b) + "'");
     return {};

@@ -63,7 +63,7 @@ class VtkXmlReader {
     if (!is_surface_ && type != "UnstructuredGrid")
       return fail(
           ErrorCode::unsupported,
-          "its data are " + quoted(type) +
+          "its data are " + artus::quoted(type) +
               ", not an unstructured grid or a surface; save it as .vtu or .vtp (ParaView), "
               "and a volume of voxels as .mha or .nrrd",
           name_);
@@ -74,7 +74,7 @@ class VtkXmlReader {
     form_.is_compressed = !compressor.empty();
     if (form_.is_compressed && compressor != "vtkZLibDataCompressor")
       return fail(ErrorCode::unsupported,
-                  "it is compressed by " + quoted(compressor) +
+                  "it is compressed by " + artus::quoted(compressor) +
                       "; save it with zlib or without compression (ParaView: Compressor Type)",
                   name_);
     end_ = bytes_.find("<AppendedData");

@@ -148,7 +148,8 @@ Result<std::vector<double>> numbers_of_type(std::string bytes, const std::string
   if (type == "UInt32") return as(std::uint32_t{});
   if (type == "Int64") return as(std::int64_t{});
   if (type == "UInt64") return as(std::uint64_t{});
-  return fail(ErrorCode::unsupported, "arrays of this type are not read: " + quoted(type), where);
+  return fail(ErrorCode::unsupported, "arrays of this type are not read: " + artus::quoted(type),
+              where);
 }
 
 Result<std::vector<double>> read_text(std::string_view text, const std::string& where) {
@@ -222,7 +223,7 @@ Result<std::vector<double>> read_xml_array(const XmlTag& tag, std::string_view t
       return cut_off(where);
     source.emplace(form.appended.substr(static_cast<std::size_t>(*offset)), !form.appended_is_raw);
   } else {
-    return fail(ErrorCode::unsupported, "arrays of this format are not read: " + quoted(how),
+    return fail(ErrorCode::unsupported, "arrays of this format are not read: " + artus::quoted(how),
                 where);
   }
   std::string bytes;

@@ -63,6 +63,7 @@ TEST_F(AssumedStructures, CartilageAndRecessStandBehindTheBonesAndAreTold) {
   EXPECT_THAT(names(*file),
               testing::ElementsAre("skin", "rectus", "vastus", "tibia", "femur", "joint_recess",
                                    "tibia_cartilage", "femur_cartilage"));
+  EXPECT_EQ(file->structures[5].tissue, "synovial_fluid");  // which takes liquid as a joint does
   const auto& recess = std::get<GapConstruct>(file->structures[5].shape);
   EXPECT_THAT(recess.roof, testing::ElementsAre("tibia"));
   EXPECT_THAT(recess.floor, testing::ElementsAre("femur"));
