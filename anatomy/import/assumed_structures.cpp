@@ -21,6 +21,7 @@ constexpr double kAttached = 5 * kMillimetre;  // a muscle that a bone holds
 constexpr double kTendon = 20 * kMillimetre;
 constexpr double kBursa = 1.5 * kMillimetre;
 constexpr double kBursaWithin = 4 * kMillimetre;
+constexpr double kGapRadius = 40 * kMillimetre;  // around where its walls are nearest
 
 std::string in_mm(double length) {
   return printed("%.3g", length / kMillimetre);
@@ -47,7 +48,7 @@ class Assumer {
     const auto& [a, b] = **pair;
     // Of the joint's fluid, so that it takes liquid as a joint does and not as a bursa.
     add(unused("joint_recess"), "synovial_fluid",
-        gap({with_cartilage(a), with_cartilage(b)}, kRecess, kRecessWithin),
+        gap(a, b, {with_cartilage(a), with_cartilage(b)}, kRecess, kRecessWithin),
         "a recess of " + in_mm(kRecess) + " mm between '" + name(a) + "' and '" + name(b) + "'");
     return {};
   }
@@ -98,11 +99,13 @@ class Assumer {
   Result<void> add_bursa(const std::vector<std::string>& walls) {
     const auto names = item_names(joint_.structures);
     std::array<std::vector<std::string>, 2> sides;
+    std::array<std::size_t, 2> places{};
     bool has_hard = false;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto at = find_name(names, walls[k], "structure", "--bursa");
       ARTUS_TRY(at);
       sides.at(k) = {name(*at)};
+      places.at(k) = *at;
       if (keeps_shape(*at))
         has_hard = true;
       else
@@ -110,7 +113,7 @@ class Assumer {
     }
     // It lies half in each wall where they touch, and a hard one gives nothing.
     add(unused(walls[0] + "_" + walls[1] + "_bursa"), "bursa",
-        gap(sides, has_hard ? 2 * kBursa : kBursa, kBursaWithin),
+        gap(places[0], places[1], sides, has_hard ? 2 * kBursa : kBursa, kBursaWithin),
         "a bursa of " + in_mm(kBursa) + " mm between '" + walls[0] + "' and '" + walls[1] + "'");
     return {};
   }
@@ -156,10 +159,15 @@ class Assumer {
       if (is(i, "tendon") && name(i).find(name(muscle)) != std::string::npos) return true;
     return false;
   }
-  static std::string gap(const std::array<std::vector<std::string>, 2>& walls, double thickness,
-                         double within) {
+  /// A gap around where two structures are nearest.
+  [[nodiscard]] std::string gap(std::size_t a, std::size_t b,
+                                const std::array<std::vector<std::string>, 2>& walls,
+                                double thickness, double within) const {
+    const Vec3 centre = nearest_of(samples_[a], samples_[b]).centre / kMillimetre;
     return "gap = { roof = " + quoted_list(walls[0]) + ", floor = " + quoted_list(walls[1]) +
-           ", thickness = " + in_mm(thickness) + ", within = " + in_mm(within) + " }";
+           ", thickness = " + in_mm(thickness) + ", within = " + in_mm(within) +
+           printed(", centre = [%.1f, %.1f, %.1f]", centre.x(), centre.y(), centre.z()) +
+           ", radius = " + in_mm(kGapRadius) + " }";
   }
   [[nodiscard]] std::string unused(const std::string& wanted) const {
     const auto is_taken = [&](const std::string& candidate) {

@@ -18,6 +18,7 @@ inline constexpr std::array<std::string_view, 3> kAssumable{"cartilage", "recess
 /// - tendons: the end of each muscle within 20 mm of where it meets its nearest bone, for muscles
 ///   within 5 mm of one that have no segmented tendon;
 /// - bursa: 1.5 mm between two structures.
+/// Recess and bursa reach 40 mm around where their walls are nearest.
 /// Bones and segmented cartilage stand before all of it and keep their shape; the soft walls of a
 /// bursa stand after it. All lengths are assumed. Errors: invalid (something else is asked for),
 /// not_found (a name; no two bones for a recess; nothing that could be made).

@@ -77,12 +77,8 @@ bool is_inside(const DistanceTree& tree, const Vec3& p) {
 /// What the layer at a point is called, from the surfaces alone.
 class SurfaceLayers {
  public:
-  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces)
-      : file_(&file), surfaces_(&surfaces) {
-    const PreparedSurface& body = surfaces.body;
-    if (!body.is_cut.empty())
-      cut_skin_ = std::make_shared<const DistanceTree>(without_cuts(body.mesh, body.is_cut));
-  }
+  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces, DistanceTree skin)
+      : file_(&file), surfaces_(&surfaces), skin_(std::move(skin)) {}
 
   std::vector<LineLayer> along(const Segment& line) const {
     constexpr double kStep = 0.2 * kMillimetre;
@@ -118,19 +114,15 @@ class SurfaceLayers {
       const bool holds = surfaces_->structures[i]
                              ? is_inside(surfaces_->structures[i]->tree, p)
                              : shell != nullptr && shell->inside.empty() &&
-                                   skin().distance(p, shell->thickness) < shell->thickness;
+                                   skin_.distance(p, shell->thickness) < shell->thickness;
       if (holds) return named(s.name, s.tissue);
     }
     return named(file_->filler_name, file_->body.tissue);
   }
 
-  [[nodiscard]] const DistanceTree& skin() const {
-    return cut_skin_ ? *cut_skin_ : surfaces_->body.tree;
-  }
-
   const JointFile* file_;
   const PreparedSurfaces* surfaces_;
-  std::shared_ptr<const DistanceTree> cut_skin_;  // of a body that was cut
+  DistanceTree skin_;  // without what a cut closes
 };
 
 /// The layers of a line from its crossings with all interfaces.
@@ -239,7 +231,7 @@ PlanGround make_ground(const JointFile& file, const PreparedSurfaces& surfaces) 
     if (surfaces.structures[i] && tissue != file.tissues.end() && tissue->haptic.hard)
       ground.bones.push_back({file.structures[i].name, surfaces.structures[i]->tree});
   }
-  ground.layers = [layers = SurfaceLayers(file, surfaces)](const Segment& line) {
+  ground.layers = [layers = SurfaceLayers(file, surfaces, ground.skin_tree)](const Segment& line) {
     return layers.along(line);
   };
   return ground;

@@ -31,7 +31,7 @@ ImportedJoint knee() {
   ImportedJoint joint;
   joint.name = "knee";
   joint.structures = {
-      ball("rectus", "muscle", -24 * kMm, 8 * kMm), ball("vastus", "muscle", -41 * kMm, 8 * kMm),
+      ball("rectus", "muscle", -24 * kMm, 8 * kMm), ball("vastus", "muscle", -50 * kMm, 8 * kMm),
       ball("tibia", "bone", 18 * kMm, 14 * kMm), ball("femur", "bone", -15 * kMm, 16 * kMm)};
   joint.body = make_sphere(Vec3::Zero(), 60 * kMm);
   joint.body_by = "a test";
