@@ -77,7 +77,7 @@ bool is_inside(const DistanceTree& tree, const Vec3& p) {
 /// What the layer at a point is called, from the surfaces alone.
 class SurfaceLayers {
  public:
-  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces, DistanceTree skin)
+  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces, TreeWhenAsked skin)
       : file_(&file), surfaces_(&surfaces), skin_(std::move(skin)) {}
 
   std::vector<LineLayer> along(const Segment& line) const {
@@ -114,7 +114,7 @@ class SurfaceLayers {
       const bool holds = surfaces_->structures[i]
                              ? is_inside(surfaces_->structures[i]->tree, p)
                              : shell != nullptr && shell->inside.empty() &&
-                                   skin_.distance(p, shell->thickness) < shell->thickness;
+                                   skin_.get().distance(p, shell->thickness) < shell->thickness;
       if (holds) return named(s.name, s.tissue);
     }
     return named(file_->filler_name, file_->body.tissue);
@@ -122,7 +122,7 @@ class SurfaceLayers {
 
   const JointFile* file_;
   const PreparedSurfaces* surfaces_;
-  DistanceTree skin_;  // without what a cut closes
+  TreeWhenAsked skin_;  // without what a cut closes
 };
 
 /// The layers of a line from its crossings with all interfaces.
@@ -177,7 +177,7 @@ SurfaceMesh skin_in_region(const SurfaceMesh& body, const std::optional<RegionOf
 }  // namespace
 
 double PlanGround::skin_distance(const Vec3& p) const {
-  const double distance = skin_tree.distance(p, kFar);
+  const double distance = skin_tree.get().distance(p, kFar);
   return is_inside(hull, p) ? -distance : distance;
 }
 
@@ -215,10 +215,10 @@ PlanGround make_ground(const JointFile& file, const PreparedSurfaces& surfaces) 
   ground.skin = skin_in_region(without_cuts(body.mesh, body.is_cut), ground.region);
   ground.hull = body.tree;
   if (body.is_cut.empty()) {
-    ground.skin_tree = body.tree;
+    ground.skin_tree = TreeWhenAsked(body.tree);
   } else {
-    ground.skin_tree = DistanceTree(without_cuts(body.mesh, body.is_cut));
-    ground.cut_tree = DistanceTree(without_cuts(body.mesh, body.is_cut, true));
+    ground.skin_tree = TreeWhenAsked([&body] { return without_cuts(body.mesh, body.is_cut); });
+    ground.cut_tree = TreeWhenAsked([&body] { return without_cuts(body.mesh, body.is_cut, true); });
   }
   ground.nearest_skin = nearest_of(ground.skin);
   ground.nearest_any_skin = [&body](const Vec3& p) {
@@ -263,7 +263,7 @@ PlanGround make_ground(const CompiledJoint& joint, const std::optional<RegionOfI
   ground.hull = DistanceTree(hull);
   ground.nearest_skin = nearest_of(ground.skin);
   ground.nearest_any_skin = ground.nearest_skin;
-  ground.skin_tree = DistanceTree(ground.skin);
+  ground.skin_tree = TreeWhenAsked(DistanceTree(ground.skin));
   for (std::size_t r = 0; r < parts.size(); ++r) {
     if (parts[r].triangles.empty()) continue;
     parts[r].vertices = joint.mesh.vertices;
