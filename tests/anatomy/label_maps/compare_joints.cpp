@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How far an imported joint is from the one whose label map it was made of, as rows of a table:
-//   compare_joints TRUTH.artus MADE.artus VOXEL_MM
+//   compare_joints TRUTH.artus MADE.artus VOXEL_MM [SMOOTH_DEGREES]
 // Run by scripts/import-truth. Bars: volumes within 2 %, surfaces within 0.6 voxel (95 %), normals
 // within 6 degrees rms where the truth is smooth. The last line counts the rows that hold.
 #include <cstdio>
@@ -25,7 +25,7 @@ double thickness_of(double volume, const artus::SurfaceMesh& surface) {
 }
 
 void compare_region(const CompiledJoint& truth, const CompiledJoint& made, RegionId region,
-                    double voxel, Tally& tally) {
+                    double voxel, double smooth, Tally& tally) {
   const std::string& name = truth.regions[region].name;
   const double volume = artus::test::volume_of_region(truth, region);
   const auto surface = artus::test::surface_of_region(truth, region);
@@ -40,7 +40,7 @@ void compare_region(const CompiledJoint& truth, const CompiledJoint& made, Regio
   }
   const double change = 100 * (artus::test::volume_of_region(made, mine) / volume - 1);
   const auto apart =
-      artus::test::compare(artus::test::surface_of_region(made, mine), surface, kSamples);
+      artus::test::compare(artus::test::surface_of_region(made, mine), surface, kSamples, smooth);
   const bool is_volume = std::abs(change) <= 2;
   const bool is_surface = apart.p95 <= 0.6 * voxel;
   const bool is_normal = apart.n_smooth == 0 || apart.normal_rms <= 6;
@@ -55,8 +55,8 @@ void compare_region(const CompiledJoint& truth, const CompiledJoint& made, Regio
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "compare_joints TRUTH.artus MADE.artus VOXEL_MM\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "compare_joints TRUTH.artus MADE.artus VOXEL_MM [SMOOTH_DEGREES]\n");
     return 2;
   }
   const auto truth = artus::read_compiled_joint(argv[1]);
@@ -66,9 +66,11 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "%s\n", joint->error().to_string().c_str());
       return 1;
     }
+  const double smooth = argc == 5 ? std::atof(argv[4]) : 20;
   Tally tally;
   for (std::size_t r = artus::kFirstRegion + 1U; r < truth->regions.size(); ++r)
-    compare_region(*truth, *made, static_cast<RegionId>(r), std::atof(argv[3]) * 1e-3, tally);
+    compare_region(*truth, *made, static_cast<RegionId>(r), std::atof(argv[3]) * 1e-3, smooth,
+                   tally);
   std::printf("of %d structures: volume %d, surface %d, normals %d, not there %d\n", tally.n,
               tally.volumes, tally.surfaces, tally.normals, tally.lost);
   return 0;
