@@ -13,7 +13,7 @@ namespace {
 
 // All assumed: what a segmentation lacks has no measure there.
 constexpr double kCartilage = 1.5 * kMillimetre;
-constexpr double kFacing = 6 * kMillimetre;    // bones that a joint is between
+constexpr double kFacing = 8 * kMillimetre;    // bones that a joint is between
 constexpr double kTouching = 2 * kMillimetre;  // cartilage and its bone, between samples
 constexpr double kRecess = 1.0 * kMillimetre;
 constexpr double kRecessWithin = 8 * kMillimetre;

@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 3> kAssumable{"cartilage", "recess
 
 /// Adds what `options.assume` and `options.bursa` ask for, as constructs of joint.toml that are
 /// told as assumed:
-/// - cartilage: 1.5 mm on each bone where another one is within 6 mm, where none was segmented;
+/// - cartilage: 1.5 mm on each bone where another one is within 8 mm, where none was segmented;
 /// - recess: 1 mm between the two bones that make the joint and what cartilage they have;
 /// - tendons: the end of each muscle within 20 mm of where it meets its nearest bone, for muscles
 ///   within 5 mm of one that have no segmented tendon;

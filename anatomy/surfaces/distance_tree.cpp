@@ -162,15 +162,18 @@ DistanceTree::DistanceTree(const SurfaceMesh& mesh) {
 
 void DistanceTree::Parts::build_all() {
   nodes.reserve(count_nodes(triangles.size()));
+  boxes.reserve(nodes.capacity());
   nodes.emplace_back();
+  boxes.emplace_back();
   build(0, 0, static_cast<std::uint32_t>(triangles.size()));
-  lower = nodes[0].lower;
-  upper = nodes[0].upper;
+  lower = boxes[0].lower;
+  upper = boxes[0].upper;
   middle = (lower + upper) / 2;
   const std::size_t n_leaves = (nodes.size() + 1) / 2;
   packs.reserve(n_leaves);
   quads.reserve(n_leaves / 2 + 1);
   flatten(0);
+  boxes = std::vector<NodeBox>();
 }
 
 DistanceTree::Pack DistanceTree::Parts::make_pack(const Node& leaf) const {
@@ -233,7 +236,7 @@ std::uint32_t DistanceTree::Parts::flatten(std::uint32_t node) {
       quad.lower[a][k] = kInfinity;
       quad.upper[a][k] = -kInfinity;
       if (k >= n) continue;
-      const Node& child = nodes[children[k]];
+      const NodeBox& child = boxes[children[k]];
       quad.lower[a][k] =
           std::nextafter(static_cast<float>(child.lower[axis] - middle[axis]), -kInfinity);
       quad.upper[a][k] =
@@ -245,15 +248,17 @@ std::uint32_t DistanceTree::Parts::flatten(std::uint32_t node) {
   return index;
 }
 
-void DistanceTree::Parts::summarise(Node& node, std::uint32_t first, std::uint32_t count) const {
-  node.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
-  node.upper = -node.lower;
+void DistanceTree::Parts::summarise(std::uint32_t at, std::uint32_t first, std::uint32_t count) {
+  Node& node = nodes[at];
+  NodeBox& box = boxes[at];
+  box.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+  box.upper = -box.lower;
   double area_sum = 0;
   for (std::uint32_t i = first; i < first + count; ++i) {
     const Corners& t = triangles[i];
     for (const Vec3& v : t) {
-      node.lower = node.lower.cwiseMin(v);
-      node.upper = node.upper.cwiseMax(v);
+      box.lower = box.lower.cwiseMin(v);
+      box.upper = box.upper.cwiseMax(v);
     }
     const Vec3 area_vector = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
     const double area = area_vector.norm();
@@ -261,20 +266,20 @@ void DistanceTree::Parts::summarise(Node& node, std::uint32_t first, std::uint32
     node.centre += area * centroid(t);
     area_sum += area;
   }
-  node.centre = area_sum > 0 ? Vec3(node.centre / area_sum) : Vec3((node.lower + node.upper) / 2);
-  const Vec3 reach = (node.centre - node.lower).cwiseMax(node.upper - node.centre);
+  node.centre = area_sum > 0 ? Vec3(node.centre / area_sum) : Vec3((box.lower + box.upper) / 2);
+  const Vec3 reach = (node.centre - box.lower).cwiseMax(box.upper - node.centre);
   node.far2 = kOpeningRatio * kOpeningRatio * reach.squaredNorm();
 }
 
 void DistanceTree::Parts::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  summarise(nodes[node], first, count);
+  summarise(node, first, count);
   if (count <= kLeafSize) {
     nodes[node].first = first;
     nodes[node].count = count;
     return;
   }
   Eigen::Index axis = 0;
-  (nodes[node].upper - nodes[node].lower).maxCoeff(&axis);
+  (boxes[node].upper - boxes[node].lower).maxCoeff(&axis);
   const auto begin = triangles.begin() + first;
   const std::uint32_t half = count / 2;
   std::nth_element(begin, begin + half, begin + count, [axis](const Corners& a, const Corners& b) {
@@ -283,6 +288,7 @@ void DistanceTree::Parts::build(std::uint32_t node, std::uint32_t first, std::ui
   const auto left = static_cast<std::uint32_t>(nodes.size());
   nodes[node].first = left;
   nodes.resize(nodes.size() + 2);
+  boxes.resize(nodes.size());
   build(left, first, half);
   build(left + 1, first + half, count - half);
 }

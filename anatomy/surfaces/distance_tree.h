@@ -35,11 +35,13 @@ class DistanceTree {
 
  private:
   struct Node {
-    Vec3 lower, upper;
     Vec3 centre = Vec3::Zero();          // area weighted
     Vec3 dipole = Vec3::Zero();          // sum of area vectors
     double far2 = 0;                     // beyond this squared distance the dipole is good enough
     std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, first = left child
+  };
+  struct NodeBox {
+    Vec3 lower, upper;
   };
   // Four nodes side by side: their boxes, about the tree's middle and rounded outward.
   struct Quad {
@@ -61,8 +63,9 @@ class DistanceTree {
   struct Parts {
     std::vector<Corners> triangles;
     std::vector<Node> nodes;
-    std::vector<Quad> quads;  // the first holds the root
-    std::vector<Pack> packs;  // (n_leaves)
+    std::vector<NodeBox> boxes;  // (n_nodes), until the quads have them
+    std::vector<Quad> quads;     // the first holds the root
+    std::vector<Pack> packs;     // (n_leaves)
     Vec3 middle = Vec3::Zero();
     Vec3 lower, upper;
 
@@ -71,7 +74,7 @@ class DistanceTree {
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
     std::uint32_t flatten(std::uint32_t node);
     [[nodiscard]] Pack make_pack(const Node& leaf) const;
-    void summarise(Node& node, std::uint32_t first, std::uint32_t count) const;
+    void summarise(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   };
   std::shared_ptr<const Parts> parts_;
 };
