@@ -93,7 +93,7 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   const std::string report = to_json(outcome->report);
   if (!options.report.empty()) {
     const auto written = is_page(options.report)
-                             ? write_compile_page(sources, *outcome, options.report)
+                             ? write_compile_page(sources, *outcome, out, options.report)
                              : write_text(options.report, report + "\n");
     if (!written) return report_error(written.error(), options.json);
   }

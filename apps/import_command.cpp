@@ -8,6 +8,7 @@
 #include "artus/detail/anatomy/import/import_files.h"
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/arguments.h"
+#include "artus/detail/core/csv.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/import_page.h"
@@ -23,9 +24,12 @@ struct ImportCommandOptions {
   std::string as;
   std::string name;
   std::string side;
-  std::string units = "mm";
+  std::string units;
   std::vector<std::string> between;
   double threshold = 0.5;
+  std::string assume;
+  std::vector<std::string> bursa;
+  bool whole = false;
   bool replace = false;
   bool json = false;
 };
@@ -36,7 +40,10 @@ Result<ImportOptions> read_options(const ImportCommandOptions& options) {
   out.side = options.side;
   out.between = options.between;
   out.threshold = options.threshold;
-  out.surface_unit = length_unit(options.units);
+  if (!options.units.empty()) out.surface_unit = length_unit(options.units);
+  out.whole = options.whole;
+  if (!options.assume.empty()) out.assume = csv_cells(options.assume);
+  out.bursa = options.bursa;
   if (!options.labels.empty()) {
     auto names = read_structure_names(options.labels);
     ARTUS_TRY(names);
@@ -108,7 +115,8 @@ Result<void> import_known(const ImportCommandOptions& options, const Progress& p
   const auto joint = read_known_joint(find_joint(options.as));
   ARTUS_TRY(joint);
   const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
-  const auto found = find_known_joint(*joint, files, length_unit(options.units), progress);
+  const auto found = find_known_joint(
+      *joint, files, length_unit(options.units.empty() ? "mm" : options.units), progress);
   ARTUS_TRY(found);
   if (progress) progress("writing", 0.95);
   ARTUS_TRY(write_known_joint(*joint, *found, options.out, options.replace));
@@ -167,14 +175,17 @@ void add_import_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "import", "Make a joint folder of a segmentation or a scene",
       "Segmentations: NIfTI, NRRD and .seg.nrrd of 3D Slicer, MetaImage, DICOM SEG; or one mask a\n"
-      "structure. Scenes: GLB, glTF, VTK, VTP, OBJ of several objects; or surfaces.\n"
+      "structure. Scenes: GLB, glTF, VTK, VTP, OBJ of several objects; or surfaces. Volume\n"
+      "meshes: VTU, MSH, the boundary of each material.\n"
       "Writes joint.toml, surfaces and import.html, a page with what was made and what was\n"
       "assumed.\n"
       "Examples:\n"
       "  artus import knee.seg.nrrd -o knee\n"
       "  artus import labels.nii.gz --labels names.toml --image scan.nii.gz -o knee\n"
       "  artus import segmentations/*.nii.gz --between humerus_left scapula_left -o shoulder\n"
+      "  artus import knee.seg.nrrd --assume cartilage,recess -o knee\n"
       "  artus import atlas.glb -o shoulder\n"
+      "  artus import mesh.vtu --units mm --labels names.toml -o knee\n"
       "  artus import --as real-shoulder bodyparts3d/ z-anatomy/ -o real");
   command->add_option("files", options->files, "segmentation, masks, scene or surfaces")
       ->required();
@@ -191,11 +202,21 @@ void add_import_command(Command& app, ExitCode& code) {
   command->add_option("--side", options->side, "left, right or none (default: by the names)")
       ->one_of({"left", "right", "none"});
   command
-      ->add_option("--units", options->units, "of surfaces that do not say their own (default: mm)")
+      ->add_option("--units", options->units,
+                   "of surfaces that do not say their own (default: mm) and of volume meshes")
       ->one_of({"mm", "cm", "m"});
   command
       ->add_option("--between", options->between,
                    "two structures where the joint is, for the region of interest")
+      ->expected(2);
+  command->add_flag("--whole", options->whole, "mesh all of the body: no region of interest");
+  command->add_option("--assume", options->assume,
+                      "what the segmentation lacks, made and marked, parted by commas: cartilage "
+                      "where bones face each other, the recess between them, tendons where muscles "
+                      "meet bone");
+  command
+      ->add_option("--bursa", options->bursa,
+                   "two structures between which there is a bursa, made and marked as assumed")
       ->expected(2);
   command
       ->add_option("--threshold", options->threshold,

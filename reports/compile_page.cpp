@@ -182,6 +182,7 @@ void add_table(HtmlPage& page, const CompileReport& report) {
 }  // namespace
 
 Result<void> write_compile_page(const JointSources& sources, const CompileOutcome& outcome,
+                                const std::filesystem::path& compiled,
                                 const std::filesystem::path& path) {
   const JointFile& file = sources.joint();
   HtmlPage page(file.title + ": what artus compile made");
@@ -191,9 +192,10 @@ Result<void> write_compile_page(const JointSources& sources, const CompileOutcom
     for (const std::string& warning : s.warnings) page.point("look", s.name + ": " + warning);
   }
   for (const std::string& note : outcome.report.notes) page.point("note", note);
-  page.paragraph("Look at the slices and at what is red below; then artus image -j " + file.name +
-                 ".artus -o image.png shows the echo, and artus run three-injections -j " +
-                 file.name + ".artus --out out/run injects.");
+  page.paragraph("Look at the slices and at what is red below; then artus image -j " +
+                 compiled.string() +
+                 " -o image.png shows the echo, and artus run three-injections -j " +
+                 compiled.string() + " --out out/run injects.");
   add_slices(page, file, outcome.joint);
   add_overview(page, file, outcome.joint);
   add_table(page, outcome.report);

@@ -16,9 +16,11 @@ namespace artus {
 
 /// Writes what became of a joint as one page: the compiled body from two sides, three slices with
 /// layers and planned lines, each structure coloured by its distance to the surface it came from, a
-/// table of all with what its columns mean, the quality of the tetrahedra. Errors: unreadable.
+/// table of all with what its columns mean, the quality of the tetrahedra, and what to do next with
+/// `compiled`, the file that was written. Errors: unreadable.
 [[nodiscard]] Result<void> write_compile_page(const JointSources& sources,
                                               const CompileOutcome& outcome,
+                                              const std::filesystem::path& compiled,
                                               const std::filesystem::path& page);
 
 /// Whether a report goes to a page: its name ends in .html.

@@ -94,6 +94,8 @@ Result<void> check_refusals(const JointSources& sources,
     for (const Finding& f : find_misplaced(file, surfaces))
       if (f.verdict == Verdict::refused && !(options.skip_refused && f.kind == "lost"))
         refusals.push_back(f.what + ": " + f.message);
+    for (const Finding& f : find_other_frames(file, surfaces))
+      if (f.verdict == Verdict::refused) refusals.push_back(f.what + ": " + f.message);
     for (const Finding& f : find_pressed_bones(file, surfaces))
       refusals.push_back("pose '" + f.what + "': " + f.message);
     for (const Finding& f : find_unheld(file, surfaces))

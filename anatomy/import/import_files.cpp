@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "artus/detail/anatomy/import/assumed_structures.h"
+#include "artus/detail/anatomy/import/import_cells.h"
 #include "artus/detail/anatomy/import/scene_parts.h"
 #include "artus/detail/anatomy/import/swept_tube.h"
 #include "artus/detail/core/printed.h"
@@ -116,9 +118,15 @@ Result<ImportedJoint> import_structures(const std::vector<std::filesystem::path>
                 names.front());
   if (n_volumes == 1) return import_volume(contents.front(), names.front(), options, progress);
   if (n_volumes > 1) return import_masks(contents, names, options, progress);
+  if (names.size() == 1) {
+    const auto cells = read_cells(contents.front(), names.front());
+    ARTUS_TRY(cells);
+    if (*cells && (*cells)->has_volume())
+      return import_cells(**cells, options, names.front(), progress);
+  }
   std::vector<ScenePart> parts;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    auto more = read_scene_parts(contents[i], names[i], options.surface_unit);
+    auto more = read_scene_parts(contents[i], names[i], options.surface_unit.value_or(1e-3));
     ARTUS_TRY(more);
     for (ScenePart& part : *more) parts.push_back(std::move(part));
   }
@@ -132,6 +140,7 @@ Result<ImportedJoint> import_files(const std::vector<std::filesystem::path>& fil
   auto joint = import_structures(files, options, progress);
   ARTUS_TRY(joint);
   ARTUS_TRY(add_tubes(*joint, options.names.tubes));
+  ARTUS_TRY(add_assumed(*joint, options));
   return joint;
 }
 

@@ -152,7 +152,7 @@ Result<ImportedJoint> import_labels(LabelVolume volume, const ImportOptions& opt
   tell(joint, volume, *outline);
   name_structures(joint);
   step("choosing the region", 0.9);
-  ARTUS_TRY(choose_region(joint, options.between));
+  ARTUS_TRY(choose_region(joint, options));
   return joint;
 }
 

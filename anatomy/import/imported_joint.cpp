@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kSurfaces = "surfaces";
 constexpr const char* kDermisName = "skin";
 constexpr double kFilm = 0.25;  // of a voxel: narrower gaps between neighbours are none
+constexpr double kFilmOfCells = 0.02 * kMillimetre;  // where neighbours share their vertices
 
 /// Text in quotes of TOML.
 std::string in_quotes(const std::string& text) {
@@ -55,8 +56,33 @@ std::string head_of(const ImportedJoint& joint) {
                  distance / kMillimetre);
   if (joint.is_partition) {
     out += "[partition.labels]  # structures that share their borders\n";
-    out += printed("film = %.4f  # a quarter of a voxel\n\n", kFilm * joint.voxel / kMillimetre);
+    if (joint.voxel > 0)
+      out += printed("film = %.4f  # a quarter of a voxel\n\n", kFilm * joint.voxel / kMillimetre);
+    else
+      out += printed("film = %.4f\n\n", kFilmOfCells / kMillimetre);
   }
+  return out;
+}
+
+/// Surfaces of voxels are closed by construction.
+bool is_clean(const ImportedJoint& joint) {
+  return joint.is_partition && joint.voxel > 0;
+}
+
+std::string surface_of(const ImportedJoint& joint, const ImportedStructure& s) {
+  std::string out = "\n" + comment(s.source + ": " + s.by);
+  out += "[[structure]]\nname = \"" + s.name + "\"\ntissue = \"" + s.tissue + "\"\nfile = \"" +
+         s.name + ".ply\"\n";
+  if (is_clean(joint) && !s.is_swept) out += "repair = \"none\"\n";
+  if (joint.is_partition && !s.is_swept) out += "partition = \"labels\"\n";
+  return out;
+}
+
+std::string made_of(const ImportedJoint& joint) {
+  std::string out;
+  for (const AssumedStructure& s : joint.made)
+    out += "\n[[structure]]  # assumed\nname = \"" + s.name + "\"\ntissue = \"" + s.tissue +
+           "\"\n" + s.shape + "\n";
   return out;
 }
 
@@ -76,17 +102,16 @@ std::string to_joint_toml(const ImportedJoint& joint) {
   }
   out += comment("outline: " + joint.body_by);
   out += "[body]\nfile = \"body.ply\"\nfiller = \"subcutaneous_fat\"\ntissue = \"fat\"\n";
-  if (joint.is_partition) out += "repair = \"none\"\n";
+  if (is_clean(joint)) out += "repair = \"none\"\n";
   if (!joint.cuts.triangles.empty()) out += "cuts = \"body_cuts.ply\"\n";
   if (!joint.has_skin)
     out += std::string("\n[[structure]]  # assumed\nname = \"") + kDermisName +
            "\"\ntissue = \"skin\"\nshell = { thickness = 1.8 }\n";
-  for (const ImportedStructure& s : joint.structures) {
-    out += "\n" + comment(s.source + ": " + s.by);
-    out += "[[structure]]\nname = \"" + s.name + "\"\ntissue = \"" + s.tissue + "\"\nfile = \"" +
-           s.name + ".ply\"\n";
-    if (joint.is_partition && !s.is_swept) out += "repair = \"none\"\npartition = \"labels\"\n";
+  for (std::size_t i = 0; i < joint.structures.size(); ++i) {
+    if (i == joint.n_before_made) out += made_of(joint);
+    out += surface_of(joint, joint.structures[i]);
   }
+  if (joint.n_before_made >= joint.structures.size()) out += made_of(joint);
   if (joint.region)
     out += "\n[[landmark]]\nname = \"joint_centre\"\nposition = " + place_of(joint.region->centre) +
            "\n";

@@ -28,6 +28,13 @@ struct ImportedStructure {
   SurfaceMesh before;     ///< as the file has it: the faces of its voxels
 };
 
+/// A structure that was not segmented and is made of others when the joint is compiled.
+struct AssumedStructure {
+  std::string name;
+  std::string tissue;
+  std::string shape;  ///< as joint.toml has it: "cap = { ... }"
+};
+
 /// A region of interest that was chosen.
 struct ImportedRegion {
   Vec3 centre = Vec3::Zero();
@@ -48,8 +55,10 @@ struct ImportedJoint {
   SurfaceMesh cuts;     ///< the part of body that is no skin; may be empty
   std::string body_by;  ///< how the body's outline is known
   bool body_is_assumed = false;
-  bool has_skin = false;      ///< a structure of its own, not a shell
-  bool is_partition = false;  ///< structures share their borders
+  bool has_skin = false;               ///< a structure of its own, not a shell
+  bool is_partition = false;           ///< structures share their borders
+  std::vector<AssumedStructure> made;  ///< of others, when the joint is compiled
+  std::size_t n_before_made = 0;       ///< structures that stand before those in the file
   std::optional<ImportedRegion> region;
   std::vector<std::string> notes;    ///< to look at
   std::vector<std::string> assumed;  ///< made and not measured
@@ -57,13 +66,16 @@ struct ImportedJoint {
 
 /// What the user says of an import.
 struct ImportOptions {
-  std::string name;                  ///< of the joint; empty: from the file's name
-  std::string side;                  ///< empty: by the structures' names
-  StructureNames names;              ///< of --labels
-  std::optional<ImageVolume> image;  ///< the scan, for the skin
-  double surface_unit = 1e-3;        ///< m, of surface files that do not say their own
-  double threshold = 0.5;            ///< of a fractional DICOM segmentation
-  std::vector<std::string> between;  ///< two structures between which the joint lies; or none
+  std::string name;                    ///< of the joint; empty: from the file's name
+  std::string side;                    ///< empty: by the structures' names
+  StructureNames names;                ///< of --labels
+  std::optional<ImageVolume> image;    ///< the scan, for the skin
+  std::optional<double> surface_unit;  ///< m, of files that do not say their own; else mm
+  double threshold = 0.5;              ///< of a fractional DICOM segmentation
+  std::vector<std::string> between;    ///< two structures between which the joint lies; or none
+  bool whole = false;                  ///< all of the body is meshed: no region of interest
+  std::vector<std::string> assume;     ///< of kAssumable
+  std::vector<std::string> bursa;      ///< two structures between which there is one; or none
 };
 
 /// Makes a joint of a label volume: [Frisken2022]'s nets, volumes fitted, tissues by name, what a
@@ -93,9 +105,9 @@ struct ImportOptions {
 void name_structures(ImportedJoint& joint);
 
 /// The ball around the place where two bones are nearest, as large as holds it and its skin;
-/// nullopt where the whole body is no larger, or there are no two bones. `between` names them.
-/// Structures without a vertex in it move to `left_out`. Errors: not_found (a name of `between`).
-[[nodiscard]] Result<void> choose_region(ImportedJoint& joint,
-                                         const std::vector<std::string>& between);
+/// nullopt where the whole body is no larger or asked for, or there are no two bones.
+/// `options.between` names them. Structures without a vertex in it move to `left_out`. Errors:
+/// not_found (a name of `between`).
+[[nodiscard]] Result<void> choose_region(ImportedJoint& joint, const ImportOptions& options);
 
 }  // namespace artus

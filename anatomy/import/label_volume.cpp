@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 
@@ -102,8 +102,11 @@ Result<void> fill_labels(const ImageVolume& volume, Segments& segments, LabelVol
 }
 
 /// What to write so that labels have names.
-tl::unexpected<Error> ask_for_names(const Segments& segments, const std::string& name) {
+tl::unexpected<Error> ask_for_names(Segments& segments, const std::string& name) {
   constexpr std::size_t kMost = 12;
+  std::sort(segments.unnamed.begin(), segments.unnamed.end(), [&](std::size_t a, std::size_t b) {
+    return segments.segments[a].value < segments.segments[b].value;
+  });
   std::string list;
   std::string first;
   for (std::size_t k = 0; k < segments.unnamed.size(); ++k) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/anatomy/import/image_volume.h"
 #include "artus/detail/anatomy/import/structure_names.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
 
 namespace artus {
 

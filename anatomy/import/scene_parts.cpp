@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "artus/detail/anatomy/import/import_cells.h"
 #include "artus/detail/anatomy/import/scene_reader.h"
 #include "artus/detail/anatomy/import/voxel_masks.h"
 #include "artus/detail/anatomy/surfaces/foreign_format.h"
@@ -23,6 +24,21 @@ std::string part_name(const std::string& file) {
 bool says_ras(std::string_view bytes) {
   constexpr std::size_t kHead = 256;
   return bytes.substr(0, kHead).find("SPACE=RAS") != std::string_view::npos;
+}
+
+/// The polygons of VTK's XML files and of Gmsh's, which have no volume.
+Result<ScenePart> surface_of_cells(std::string_view bytes, const std::string& name, double unit) {
+  const auto mesh = read_cells(bytes, name);
+  ARTUS_TRY(mesh);
+  if ((*mesh)->has_volume())
+    return fail(ErrorCode::unsupported,
+                "it is a volume mesh (" + (*mesh)->format +
+                    "), not a surface; import it by itself: `artus import FILE --units mm -o DIR`",
+                name);
+  auto surface = find_outer_boundary(**mesh, name);
+  ARTUS_TRY(surface);
+  for (Vec3& p : surface->vertices) p *= unit;
+  return ScenePart{part_name(name), std::move(*surface), {"it names no frame: taken for LPS"}};
 }
 
 /// A skin around surfaces that have none: their points on a grid, closed and taken as a net.
@@ -88,6 +104,13 @@ std::optional<std::string> why_too_open(const SurfaceMesh& mesh) {
 void sort_parts(std::vector<ScenePart>& parts, const ImportOptions& options,
                 const StructureNames& bundled, const Progress& progress, ImportedJoint& joint) {
   double largest_outline = 0;
+  const auto tissue_of = [&](const ScenePart& part) {
+    const auto known = find_tissue(options.names, bundled, part.name, {});
+    return known ? known->tissue : std::string();
+  };
+  const bool has_outline = std::any_of(parts.begin(), parts.end(), [&](const ScenePart& part) {
+    return tissue_of(part) == kBodyOutline;
+  });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     ScenePart& part = parts[i];
     if (progress)
@@ -101,7 +124,8 @@ void sort_parts(std::vector<ScenePart>& parts, const ImportOptions& options,
     if (known) s.tissue = known->tissue;
     s.volumes.fitted = signed_volume(part.mesh);
     const double volume = std::abs(s.volumes.fitted);
-    if (known && (known->tissue == kBodyOutline || known->tissue == "skin")) {
+    const bool is_skin = known && known->tissue == "skin";
+    if (known && (known->tissue == kBodyOutline || (is_skin && !has_outline))) {
       if (volume > largest_outline) {
         largest_outline = volume;
         joint.body = std::move(part.mesh);
@@ -115,6 +139,7 @@ void sort_parts(std::vector<ScenePart>& parts, const ImportOptions& options,
       continue;
     }
     s.mesh = std::move(part.mesh);
+    joint.has_skin = joint.has_skin || is_skin;
     (known ? joint.structures : joint.left_out).push_back(std::move(s));
   }
 }
@@ -124,8 +149,13 @@ void sort_parts(std::vector<ScenePart>& parts, const ImportOptions& options,
 Result<std::vector<ScenePart>> read_scene_parts(std::string_view bytes, const std::string& name,
                                                 double unit) {
   const SourceKind kind = kind_of_source(bytes, name);
-  if (kind == SourceKind::vtk_legacy || kind == SourceKind::vtk_xml) {
+  if (kind == SourceKind::vtk_legacy) {
     auto part = parse_vtk(bytes, name, unit);
+    ARTUS_TRY(part);
+    return std::vector<ScenePart>{std::move(*part)};
+  }
+  if (kind == SourceKind::vtk_xml || kind == SourceKind::gmsh) {
+    auto part = surface_of_cells(bytes, name, unit);
     ARTUS_TRY(part);
     return std::vector<ScenePart>{std::move(*part)};
   }
@@ -173,10 +203,11 @@ Result<ImportedJoint> import_parts(std::vector<ScenePart> parts, const ImportOpt
     joint.assumed.push_back(
         "skin: there is none; a hull around all surfaces, 8 mm outside of them");
   }
-  joint.assumed.push_back("dermis: a layer of 1.8 mm under the skin's surface");
+  if (!joint.has_skin)
+    joint.assumed.push_back("dermis: a layer of 1.8 mm under the skin's surface");
   joint.assumed.push_back("fat: what no structure claims");
   name_structures(joint);
-  ARTUS_TRY(choose_region(joint, options.between));
+  ARTUS_TRY(choose_region(joint, options));
   return joint;
 }
 

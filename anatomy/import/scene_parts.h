@@ -17,7 +17,7 @@ struct ScenePart {
   std::vector<std::string> notes;
 };
 
-/// The parts of a surface or scene file: STL, PLY, OFF and legacy VTK (PolyData) are one
+/// The parts of a surface or scene file: STL, PLY, OFF and VTK's surfaces (.vtk, .vtp) are one
 /// part named by the file; OBJ has one for each object, glTF and GLB for each named node with a
 /// mesh. glTF is in metres with y up, so that LPS is (x, -z, y); the others in `unit` (m). VTK and
 /// STL that say they are RAS are turned. Errors: as read_surface; unsupported (a volume mesh, a
@@ -25,7 +25,7 @@ struct ScenePart {
 [[nodiscard]] Result<std::vector<ScenePart>> read_scene_parts(std::string_view bytes,
                                                               const std::string& name, double unit);
 
-/// PolyData of a legacy VTK file, ASCII or binary; VTK's XML files are refused with the way out.
+/// PolyData of a legacy VTK file, ASCII or binary.
 /// Polygons become fans, strips triangles. Errors: as read_scene_parts; a volume mesh is named.
 [[nodiscard]] Result<ScenePart> parse_vtk(std::string_view bytes, const std::string& name,
                                           double unit);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "artus/detail/anatomy/import/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
 #include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {

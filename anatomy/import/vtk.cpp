@@ -3,9 +3,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "artus/detail/anatomy/import/image_volume.h"
 #include "artus/detail/anatomy/import/scene_parts.h"
-#include "artus/detail/anatomy/import/volume_text.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/volume_text.h"
 #include "artus/detail/anatomy/surfaces/foreign_format.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
@@ -176,10 +176,7 @@ Result<ScenePart> parse_vtk(std::string_view bytes, const std::string& name, dou
   if (advice.find("volume mesh") != std::string::npos)
     return fail(ErrorCode::unsupported, advice, name);
   if (foreign_format(bytes, name) != "VTK")
-    return fail(ErrorCode::unsupported,
-                "VTK's XML files are not read; save the surface as legacy .vtk, STL or PLY "
-                "(ParaView, 3D Slicer)",
-                name);
+    return fail(ErrorCode::unsupported, "it is no legacy file of VTK (# vtk DataFile)", name);
   auto mesh = LegacyReader(bytes, name).run();
   ARTUS_TRY(mesh);
   const std::string_view head = bytes.substr(0, 512);

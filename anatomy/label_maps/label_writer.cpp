@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "artus/detail/anatomy/body/tissue.h"
-#include "artus/detail/anatomy/import/inflate.h"
 #include "artus/detail/anatomy/import/structure_names.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 #include "artus/detail/anatomy/label_maps/dicom_seg_writer.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/printed.h"

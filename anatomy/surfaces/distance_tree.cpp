@@ -142,30 +142,48 @@ Vec3 centroid(const std::array<Vec3, 3>& t) {
 
 }  // namespace
 
-DistanceTree::DistanceTree(const SurfaceMesh& mesh)
-    : lower_(Vec3::Constant(std::numeric_limits<double>::infinity())), upper_(-lower_) {
-  triangles_.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-  }
-  if (triangles_.empty()) return;
-  nodes_.reserve(triangles_.size());
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
-  lower_ = nodes_[0].lower;
-  upper_ = nodes_[0].upper;
-  middle_ = (lower_ + upper_) / 2;
-  flatten(0);
+// How many nodes build() makes of so many triangles: known before, so that no vector grows.
+std::size_t DistanceTree::Parts::count_nodes(std::size_t triangles) {
+  if (triangles <= kLeafSize) return 1;
+  return 1 + count_nodes(triangles / 2) + count_nodes(triangles - triangles / 2);
 }
 
-DistanceTree::Pack DistanceTree::make_pack(const Node& leaf) const {
+DistanceTree::DistanceTree(const SurfaceMesh& mesh) {
+  auto parts = std::make_shared<Parts>();
+  parts->lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+  parts->upper = -parts->lower;
+  parts->triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    parts->triangles.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  }
+  if (!parts->triangles.empty()) parts->build_all();
+  parts_ = std::move(parts);
+}
+
+void DistanceTree::Parts::build_all() {
+  nodes.reserve(count_nodes(triangles.size()));
+  boxes.reserve(nodes.capacity());
+  nodes.emplace_back();
+  boxes.emplace_back();
+  build(0, 0, static_cast<std::uint32_t>(triangles.size()));
+  lower = boxes[0].lower;
+  upper = boxes[0].upper;
+  middle = (lower + upper) / 2;
+  const std::size_t n_leaves = (nodes.size() + 1) / 2;
+  packs.reserve(n_leaves);
+  quads.reserve(n_leaves / 2 + 1);
+  flatten(0);
+  boxes = std::vector<NodeBox>();
+}
+
+DistanceTree::Pack DistanceTree::Parts::make_pack(const Node& leaf) const {
   constexpr double kSliver = 1e-6;  // of the longest edge, the height of one that has no inside
   Pack pack{};
-  pack.origin = triangles_[leaf.first][0];
+  pack.origin = triangles[leaf.first][0];
   pack.first = leaf.first;
   pack.count = leaf.count;
   for (std::uint32_t i = 0; i < kLeafSize; ++i) {
-    const Corners& t = triangles_[leaf.first + std::min(i, leaf.count - 1)];
+    const Corners& t = triangles[leaf.first + std::min(i, leaf.count - 1)];
     const Vec3 area_vector = (t[1] - t[0]).cross(t[2] - t[0]);
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (t[(k + 1) % 3] - t[k]).norm());
@@ -192,25 +210,25 @@ DistanceTree::Pack DistanceTree::make_pack(const Node& leaf) const {
 }
 
 // Makes the quad of a node's children and theirs; returns how it is referred to.
-std::uint32_t DistanceTree::flatten(std::uint32_t node) {
+std::uint32_t DistanceTree::Parts::flatten(std::uint32_t node) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  if (nodes_[node].count > 0) {
-    packs_.push_back(make_pack(nodes_[node]));
-    return kLeafBit | static_cast<std::uint32_t>(packs_.size() - 1);
+  if (nodes[node].count > 0) {
+    packs.push_back(make_pack(nodes[node]));
+    return kLeafBit | static_cast<std::uint32_t>(packs.size() - 1);
   }
   std::array<std::uint32_t, 4> children{};
   std::size_t n = 0;
   for (std::uint32_t k = 0; k < 2; ++k) {
-    const Node& child = nodes_[nodes_[node].first + k];
+    const Node& child = nodes[nodes[node].first + k];
     if (child.count > 0) {
-      children[n++] = nodes_[node].first + k;
+      children[n++] = nodes[node].first + k;
     } else {
       children[n++] = child.first;
       children[n++] = child.first + 1;
     }
   }
-  const auto index = static_cast<std::uint32_t>(quads_.size());
-  quads_.emplace_back();
+  const auto index = static_cast<std::uint32_t>(quads.size());
+  quads.emplace_back();
   Quad quad{};
   for (std::size_t k = 0; k < 4; ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -218,27 +236,29 @@ std::uint32_t DistanceTree::flatten(std::uint32_t node) {
       quad.lower[a][k] = kInfinity;
       quad.upper[a][k] = -kInfinity;
       if (k >= n) continue;
-      const Node& child = nodes_[children[k]];
+      const NodeBox& child = boxes[children[k]];
       quad.lower[a][k] =
-          std::nextafter(static_cast<float>(child.lower[axis] - middle_[axis]), -kInfinity);
+          std::nextafter(static_cast<float>(child.lower[axis] - middle[axis]), -kInfinity);
       quad.upper[a][k] =
-          std::nextafter(static_cast<float>(child.upper[axis] - middle_[axis]), kInfinity);
+          std::nextafter(static_cast<float>(child.upper[axis] - middle[axis]), kInfinity);
     }
     if (k < n) quad.to[k] = flatten(children[k]);
   }
-  quads_[index] = quad;
+  quads[index] = quad;
   return index;
 }
 
-void DistanceTree::summarise(Node& node, std::uint32_t first, std::uint32_t count) const {
-  node.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
-  node.upper = -node.lower;
+void DistanceTree::Parts::summarise(std::uint32_t at, std::uint32_t first, std::uint32_t count) {
+  Node& node = nodes[at];
+  NodeBox& box = boxes[at];
+  box.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+  box.upper = -box.lower;
   double area_sum = 0;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    const Corners& t = triangles_[i];
+    const Corners& t = triangles[i];
     for (const Vec3& v : t) {
-      node.lower = node.lower.cwiseMin(v);
-      node.upper = node.upper.cwiseMax(v);
+      box.lower = box.lower.cwiseMin(v);
+      box.upper = box.upper.cwiseMax(v);
     }
     const Vec3 area_vector = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
     const double area = area_vector.norm();
@@ -246,28 +266,29 @@ void DistanceTree::summarise(Node& node, std::uint32_t first, std::uint32_t coun
     node.centre += area * centroid(t);
     area_sum += area;
   }
-  node.centre = area_sum > 0 ? Vec3(node.centre / area_sum) : Vec3((node.lower + node.upper) / 2);
-  const Vec3 reach = (node.centre - node.lower).cwiseMax(node.upper - node.centre);
+  node.centre = area_sum > 0 ? Vec3(node.centre / area_sum) : Vec3((box.lower + box.upper) / 2);
+  const Vec3 reach = (node.centre - box.lower).cwiseMax(box.upper - node.centre);
   node.far2 = kOpeningRatio * kOpeningRatio * reach.squaredNorm();
 }
 
-void DistanceTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  summarise(nodes_[node], first, count);
+void DistanceTree::Parts::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  summarise(node, first, count);
   if (count <= kLeafSize) {
-    nodes_[node].first = first;
-    nodes_[node].count = count;
+    nodes[node].first = first;
+    nodes[node].count = count;
     return;
   }
   Eigen::Index axis = 0;
-  (nodes_[node].upper - nodes_[node].lower).maxCoeff(&axis);
-  const auto begin = triangles_.begin() + first;
+  (boxes[node].upper - boxes[node].lower).maxCoeff(&axis);
+  const auto begin = triangles.begin() + first;
   const std::uint32_t half = count / 2;
   std::nth_element(begin, begin + half, begin + count, [axis](const Corners& a, const Corners& b) {
     return centroid(a)[axis] < centroid(b)[axis];
   });
-  const auto left = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = left;
-  nodes_.resize(nodes_.size() + 2);
+  const auto left = static_cast<std::uint32_t>(nodes.size());
+  nodes[node].first = left;
+  nodes.resize(nodes.size() + 2);
+  boxes.resize(nodes.size());
   build(left, first, half);
   build(left + 1, first + half, count - half);
 }
@@ -275,7 +296,7 @@ void DistanceTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 double DistanceTree::distance(const Vec3& p, double bound) const {
   if (empty()) return bound;
   constexpr float kRounding = 0.99999F;  // a box is no farther than that
-  const auto at = to_float(p - middle_);
+  const auto at = to_float(p - parts_->middle);
   const Pack* nearest = nullptr;
   float best = static_cast<float>(bound * bound);
   struct Visit {
@@ -284,12 +305,12 @@ double DistanceTree::distance(const Vec3& p, double bound) const {
   };
   std::array<Visit, 64> stack{};
   std::size_t depth = 0;
-  stack[depth++] = {0, quads_.empty() ? kLeafBit : 0};
+  stack[depth++] = {0, parts_->quads.empty() ? kLeafBit : 0};
   while (depth > 0) {
     const Visit visit = stack[--depth];
     if (visit.nearest >= best) continue;
     if ((visit.to & kLeafBit) != 0) {
-      const Pack& pack = packs_[visit.to & ~kLeafBit];
+      const Pack& pack = parts_->packs[visit.to & ~kLeafBit];
       const Float4 d = squared_distances(pack, p);
       const float least = std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
       if (least < best) {
@@ -298,7 +319,7 @@ double DistanceTree::distance(const Vec3& p, double bound) const {
       }
       continue;
     }
-    const Quad& quad = quads_[visit.to];
+    const Quad& quad = parts_->quads[visit.to];
     Float4 d = all(0);
     for (std::size_t a = 0; a < 3; ++a) {
       const Float4 off = larger(
@@ -318,7 +339,7 @@ double DistanceTree::distance(const Vec3& p, double bound) const {
   if (nearest == nullptr) return bound;
   double exact = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = nearest->first; i < nearest->first + nearest->count; ++i)
-    exact = std::min(exact, squared_distance(p, triangles_[i]));
+    exact = std::min(exact, squared_distance(p, parts_->triangles[i]));
   return std::min(bound, std::sqrt(exact));
 }
 
@@ -330,14 +351,14 @@ double DistanceTree::winding_number(const Vec3& p) const {
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
+    const Node& node = parts_->nodes[stack[--depth]];
     const Vec3 r = node.centre - p;
     const double r2 = r.squaredNorm();
     if (r2 > node.far2) {
       sum += r.dot(node.dipole) / (4 * std::numbers::pi * r2 * std::sqrt(r2));
     } else if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        add_half_angle(p, triangles_[i], near);
+        add_half_angle(p, parts_->triangles[i], near);
       }
     } else {
       stack[depth++] = node.first;

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "artus/detail/anatomy/surfaces/surface_mesh.h"
@@ -9,7 +10,8 @@
 namespace artus {
 
 /// Distance to a triangle surface and whether a point is inside it, also where the surface has
-/// holes, overlaps or crosses itself. Immutable after construction; safe to query from threads.
+/// holes, overlaps or crosses itself. Immutable after construction, and copies share what it is
+/// made of; safe to query from threads.
 /// CGAL's AABB tree gives the same distances in 2.3 times the time within a millimetre of a surface
 /// and in 3.2 times anywhere (bench/anatomy), and has no winding number.
 class DistanceTree {
@@ -26,18 +28,20 @@ class DistanceTree {
   /// Source: [Barill2018] eq. 4, first order, opening ratio 2.3.
   [[nodiscard]] double winding_number(const Vec3& p) const;
 
-  [[nodiscard]] bool empty() const noexcept { return triangles_.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return parts_->triangles.empty(); }
   /// Corners of the bounding box; inverted when empty.
-  [[nodiscard]] const Vec3& lower() const noexcept { return lower_; }
-  [[nodiscard]] const Vec3& upper() const noexcept { return upper_; }
+  [[nodiscard]] const Vec3& lower() const noexcept { return parts_->lower; }
+  [[nodiscard]] const Vec3& upper() const noexcept { return parts_->upper; }
 
  private:
   struct Node {
-    Vec3 lower, upper;
     Vec3 centre = Vec3::Zero();          // area weighted
     Vec3 dipole = Vec3::Zero();          // sum of area vectors
     double far2 = 0;                     // beyond this squared distance the dipole is good enough
     std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, first = left child
+  };
+  struct NodeBox {
+    Vec3 lower, upper;
   };
   // Four nodes side by side: their boxes, about the tree's middle and rounded outward.
   struct Quad {
@@ -55,17 +59,24 @@ class DistanceTree {
   };
   using Corners = std::array<Vec3, 3>;
 
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-  std::uint32_t flatten(std::uint32_t node);
-  [[nodiscard]] Pack make_pack(const Node& leaf) const;
-  void summarise(Node& node, std::uint32_t first, std::uint32_t count) const;
+  /// What a tree is made of.
+  struct Parts {
+    std::vector<Corners> triangles;
+    std::vector<Node> nodes;
+    std::vector<NodeBox> boxes;  // (n_nodes), until the quads have them
+    std::vector<Quad> quads;     // the first holds the root
+    std::vector<Pack> packs;     // (n_leaves)
+    Vec3 middle = Vec3::Zero();
+    Vec3 lower, upper;
 
-  std::vector<Corners> triangles_;
-  std::vector<Node> nodes_;
-  std::vector<Quad> quads_;  // the first holds the root
-  std::vector<Pack> packs_;  // (n_leaves)
-  Vec3 middle_ = Vec3::Zero();
-  Vec3 lower_, upper_;
+    static std::size_t count_nodes(std::size_t triangles);
+    void build_all();
+    void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+    std::uint32_t flatten(std::uint32_t node);
+    [[nodiscard]] Pack make_pack(const Node& leaf) const;
+    void summarise(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  };
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace artus

@@ -63,15 +63,16 @@ std::string advice_for_format(std::string_view bytes, std::string_view name) {
     return "it is a volume of voxels (" + std::string(format) +
            "), not a surface; where it is a segmentation, `artus import FILE -o DIR` makes a joint "
            "of it";
+  if (format == "VTK" && is_grid_of_cells(bytes))
+    return "it is a volume mesh (VTK), not a surface; save it as .vtu (ParaView), whose boundary "
+           "by "
+           "material `artus import FILE --units mm -o DIR` takes, or its surface as STL or PLY";
   if (format == "Gmsh" || is_grid_of_cells(bytes))
     return "it is a volume mesh (" + std::string(format) +
-           "), not a surface; take the boundary of each material (ParaView: Extract Surface; Gmsh: "
-           "export the surfaces) and save it as STL or PLY";
-  if (format == "VTK XML")
-    return "it is a file of VTK's XML form; save its surface as legacy .vtk, STL or PLY (ParaView, "
-           "3D "
-           "Slicer)";
-  if (format == "VTK")
+           "), not a surface; `artus import FILE --units mm -o DIR` takes the boundary of each "
+           "material (mm, cm or m: the file says none), or save its surface as STL or PLY "
+           "(ParaView: Extract Surface)";
+  if (format == "VTK XML" || format == "VTK")
     return "it is a file of VTK; `artus import FILE -o DIR` reads its surface, or save it as STL "
            "or PLY (ParaView, 3D Slicer)";
   if (format == "glTF")

@@ -181,5 +181,50 @@ TEST_F(ImportTool, ASegmentationBecomesAJointWithoutAnEdit) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "again/surfaces/femur.ply"));
 }
 
+/// A cube as OFF, mm.
+std::string cube(double x, double half) {
+  std::ostringstream out;
+  out << "OFF\n8 12 0\n";
+  for (int i = 0; i < 8; ++i)
+    out << x + ((i & 1) != 0 ? half : -half) << ' ' << ((i & 2) != 0 ? half : -half) << ' '
+        << ((i & 4) != 0 ? half : -half) << '\n';
+  out << "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 "
+         "6\n"
+         "3 1 3 5\n3 3 7 5\n";
+  return out.str();
+}
+
+TEST_F(ImportTool, WhatNobodyMeantEndsWithExitCodeThreeInCheckAndInCompile) {
+  const std::string head =
+      "format = 1\nname = \"limb\"\nunits = \"mm\"\naxes = \"LPS\"\nside = \"none\"\n[body]\nfile "
+      "= "
+      "\"body.off\"\ntissue = \"fat\"\n[[structure]]\nname = \"femur\"\ntissue = \"bone\"\nfile = "
+      "\"femur.off\"\n[[structure]]\nname = \"tibia\"\ntissue = \"bone\"\nfile = \"tibia.off\"\n";
+  const std::string pose =
+      "[pose.forced]\ntitle = \"forced\"\n[[pose.forced.move]]\nstructures = [\"tibia\"]\naxis = "
+      "[0.0, 0.0, "
+      "1.0]\nthrough = [20.0, 0.0, 0.0]\ndegrees = 0.0\nshift = [-15.0, 0.0, 0.0]\n";
+  struct Case {
+    std::string tibia, more, words;
+  };
+  const std::vector<Case> cases{{cube(20, 8), pose, "is pressed"},
+                                {cube(400, 8), "", "outside"},
+                                {cube(200, 80), "", "10 times too large"},
+                                {cube(-10, 4), "", "femur"}};
+  std::filesystem::create_directories(folder_ / "limb");
+  std::ofstream(in("limb/body.off")) << cube(0, 40);
+  std::ofstream(in("limb/femur.off")) << cube(-10, 10);
+  for (const Case& c : cases) {
+    std::ofstream(in("limb/tibia.off")) << c.tibia;
+    std::ofstream(in("limb/joint.toml")) << head + c.more;
+    const auto check = artus({"check", in("limb")});
+    EXPECT_EQ(check.exit_code, 3) << c.words << check.out;
+    EXPECT_NE(check.out.find(c.words), std::string::npos) << check.out;
+    const auto compiled = artus({"compile", in("limb"), "-o", in("limb.artus"), "--fresh"});
+    EXPECT_EQ(compiled.exit_code, 3) << c.words << compiled.out;
+    EXPECT_NE(compiled.err.find(c.words), std::string::npos) << compiled.err;
+  }
+}
+
 }  // namespace
 }  // namespace artus

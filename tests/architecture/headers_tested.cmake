@@ -7,7 +7,7 @@ while(public)
   list(POP_FRONT public name file)
   set(name_of_${file} artus/${name})
 endwhile()
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps raycast
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import/volumes anatomy/import/cells anatomy/import anatomy/label_maps raycast
   haptics haptics/needle/laws haptics/needle haptics/probe haptics/plunger haptics/actuator devices/kit)
 # What only the source files of one header include, and whose tests are that header's.
 set(inner raycast/embree_api.h anatomy/compile/labels/distance_field_blocks.h)
@@ -15,7 +15,7 @@ set(bad "")
 foreach(room ${rooms})
   file(GLOB headers RELATIVE ${ROOT} ${ROOT}/${room}/*.h)
   # A room within a room is tested beside it.
-  string(REGEX REPLACE "^(anatomy/compile|haptics/needle)/.*" "\\1" folder ${room})
+  string(REGEX REPLACE "^(anatomy/compile|anatomy/import|haptics/needle)/.*" "\\1" folder ${room})
   string(REGEX REPLACE "^devices/" "" folder ${folder})
   file(GLOB tests ${ROOT}/tests/${folder}/*.cpp ${ROOT}/tests/${folder}/*.h)
   list(LENGTH headers n)

@@ -11,9 +11,11 @@ set(may_anatomy/compile/labels core anatomy/surfaces anatomy/body anatomy/source
 set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/labels)
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
 set(may_anatomy/compile ${may_anatomy/compile/check} anatomy/compile/check)
-set(may_anatomy/import core anatomy/surfaces anatomy/body anatomy/source)
+set(may_anatomy/import/volumes core anatomy/surfaces)
+set(may_anatomy/import/cells ${may_anatomy/import/volumes} anatomy/import/volumes)
+set(may_anatomy/import core anatomy/surfaces anatomy/body anatomy/source anatomy/import/volumes anatomy/import/cells)
 set(may_anatomy/import/atlas ${may_anatomy/import} anatomy/import)
-set(may_anatomy/label_maps core anatomy/surfaces anatomy/body anatomy/source anatomy/import)
+set(may_anatomy/label_maps ${may_anatomy/import} anatomy/import)
 set(may_soft/cage core anatomy/body)
 set(may_soft/solver ${may_soft/cage} soft/cage)
 set(may_soft/liquid ${may_soft/solver} soft/solver)
@@ -75,7 +77,7 @@ set(may_apps/sweep ${may_apps/options} apps/options)
 set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/import/atlas anatomy/label_maps apps/options)
 set(may_apps/hands ${may_apps/options} apps/options devices/kit)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/import/atlas anatomy/label_maps
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import/volumes anatomy/import/cells anatomy/import anatomy/import/atlas anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)

@@ -95,12 +95,22 @@ bool is_wall(const Structure& s, const std::string& name) {
           std::find(gap->floor.begin(), gap->floor.end(), name) != gap->floor.end());
 }
 
+/// Whether two structures fit each other by construction, so that what one seems to have of the
+/// other is the grid's.
+bool fit_each_other(const JointFile& file, const Structure& s, const std::string& name) {
+  return !s.partition.empty() &&
+         std::any_of(file.structures.begin(), file.structures.end(), [&](const Structure& o) {
+           return o.name == name && o.partition == s.partition;
+         });
+}
+
 /// A structure that gives much to what stands before it; a bone that gives anything to tissue.
-void warn_of_losses(const Structure& s, const CompileReport& report, StructureReport& mine) {
+void warn_of_losses(const JointFile& file, const Structure& s, const CompileReport& report,
+                    StructureReport& mine) {
   const auto taker = std::find_if(report.structures.begin(), report.structures.end(),
                                   [&](const StructureReport& o) { return o.name == mine.lost_to; });
   const bool of_bone = mine.is_hard && taker != report.structures.end() && !taker->is_hard &&
-                       mine.lost_volume > kBoneLost;
+                       mine.lost_volume > kBoneLost && !fit_each_other(file, s, mine.lost_to);
   if (of_bone) {
     mine.warnings.push_back(printed("%.2g cm3 of this bone goes to '%s', which stands before it in "
                                     "the file, around ",
@@ -122,12 +132,13 @@ void warn_of_losses(const Structure& s, const CompileReport& report, StructureRe
                             "; if that is not meant, put it before them");
 }
 
-void warn_of_volumes(const Structure& s, const CompileReport& report, StructureReport& mine) {
+void warn_of_volumes(const JointFile& file, const Structure& s, const CompileReport& report,
+                     StructureReport& mine) {
   if (!(mine.resolved_volume > 0)) {
     mine.warnings.push_back(explain_nothing(s, report));
     return;
   }
-  warn_of_losses(s, report, mine);
+  warn_of_losses(file, s, report, mine);
   if (mine.kind == "gap" && mine.parts > 1)
     mine.warnings.push_back("it is in " + std::to_string(mine.parts) +
                             " separate pieces, since structures before it in the file lie "
@@ -172,7 +183,7 @@ void append_warnings(const JointFile& file, const RegionLabels& labels,
   for (std::size_t i = 0; i < file.structures.size(); ++i) {
     StructureReport& mine = report.structures[i + 1];  // behind the filler
     if (!mine.refused.empty()) continue;
-    warn_of_volumes(file.structures[i], report, mine);
+    warn_of_volumes(file, file.structures[i], report, mine);
     if (!surfaces.structures[i]) continue;
     const double outside = share_outside(labels, surfaces.structures[i]->mesh);
     if (outside > kMuchOutside)

@@ -23,9 +23,10 @@ namespace artus {
 
 /// Structures that lie outside of the skin or in bone, and would not if they were mirrored along an
 /// axis, turned from RAS to LPS, or 10, 25.4, 100 or 1000 times as large or small: named with that
-/// number and the distance. A mirrored structure that lies in soft tissue cannot be told from one
-/// that is meant. Requires: `surfaces` of `file`. Cost: two hundred points of each structure in
-/// the trees of body and bones, twelve times for one that does not fit.
+/// number and the distance, and refused where nine tenths of it lie there. A mirrored structure
+/// that lies in soft tissue cannot be told from one that is meant. Requires: `surfaces` of `file`.
+/// Cost: two hundred points of each structure in the trees of body and bones, twelve times for one
+/// that does not fit.
 [[nodiscard]] std::vector<Finding> find_other_frames(const JointFile& file,
                                                      const PreparedSurfaces& surfaces);
 

@@ -14,6 +14,7 @@ constexpr std::size_t kPoints = 200;          // of each surface
 constexpr double kClear = 0.5 * kMillimetre;  // as find_misplaced
 constexpr double kMisfit = 0.1;               // share of points; a structure that fits has less
 constexpr double kFit = 0.02;                 // share of points
+constexpr double kNearlyAll = 0.9;            // from here on the mistake is no question
 constexpr double kSizeGain = 2;               // a unit that fits brings the size so much nearer
 
 /// A mistake that exports make, and what undoes it.
@@ -140,7 +141,8 @@ class OtherFrames {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
     const double away = (middle.cwiseProduct(slip.scale()) - middle).norm();
-    return {Verdict::look, "other_frame", file_.structures[i].name, file_.structures[i].line,
+    return {now < kNearlyAll ? Verdict::look : Verdict::refused, "other_frame",
+            file_.structures[i].name, file_.structures[i].line,
             printed("%.0f %% of it lies outside of the skin or inside a bone, and none of it would "
                     "if it were not %s: its middle would lie %.0f mm from here; is that its "
                     "mistake? export it in the frame and unit of the others",

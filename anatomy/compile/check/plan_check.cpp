@@ -84,7 +84,7 @@ class Checker {
     PlanProblem& problem = add("[region_of_interest]", 0, "holds no skin");
     if (!ground_.region) return;
     const Vec3& centre = ground_.region->centre;
-    const double away = ground_.skin_tree.distance(centre, 10);
+    const double away = ground_.skin_tree.get().distance(centre, 10);
     problem.message += printed(": the nearest is %.1f mm from its centre; ", away / kMillimetre);
     if (const auto skin = ground_.nearest_any_skin(centre); skin && is_wide_enough()) {
       problem.message += "move it: centre = " + place(*skin) + " is on the skin";
@@ -179,7 +179,7 @@ class Checker {
 
   /// Why a place that looks like skin is none.
   [[nodiscard]] const char* on_cut(const Vec3& p) const {
-    const bool is_on = ground_.cut_tree.distance(p, kProbeOnSkin) < kProbeOnSkin;
+    const bool is_on = ground_.cut_tree.get().distance(p, kProbeOnSkin) < kProbeOnSkin;
     return is_on ? " (where it lies the body was cut and closed)" : "";
   }
 

@@ -77,12 +77,8 @@ bool is_inside(const DistanceTree& tree, const Vec3& p) {
 /// What the layer at a point is called, from the surfaces alone.
 class SurfaceLayers {
  public:
-  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces)
-      : file_(&file), surfaces_(&surfaces) {
-    const PreparedSurface& body = surfaces.body;
-    if (!body.is_cut.empty())
-      cut_skin_ = std::make_shared<const DistanceTree>(without_cuts(body.mesh, body.is_cut));
-  }
+  SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces, TreeWhenAsked skin)
+      : file_(&file), surfaces_(&surfaces), skin_(std::move(skin)) {}
 
   std::vector<LineLayer> along(const Segment& line) const {
     constexpr double kStep = 0.2 * kMillimetre;
@@ -118,19 +114,15 @@ class SurfaceLayers {
       const bool holds = surfaces_->structures[i]
                              ? is_inside(surfaces_->structures[i]->tree, p)
                              : shell != nullptr && shell->inside.empty() &&
-                                   skin().distance(p, shell->thickness) < shell->thickness;
+                                   skin_.get().distance(p, shell->thickness) < shell->thickness;
       if (holds) return named(s.name, s.tissue);
     }
     return named(file_->filler_name, file_->body.tissue);
   }
 
-  [[nodiscard]] const DistanceTree& skin() const {
-    return cut_skin_ ? *cut_skin_ : surfaces_->body.tree;
-  }
-
   const JointFile* file_;
   const PreparedSurfaces* surfaces_;
-  std::shared_ptr<const DistanceTree> cut_skin_;  // of a body that was cut
+  TreeWhenAsked skin_;  // without what a cut closes
 };
 
 /// The layers of a line from its crossings with all interfaces.
@@ -185,7 +177,7 @@ SurfaceMesh skin_in_region(const SurfaceMesh& body, const std::optional<RegionOf
 }  // namespace
 
 double PlanGround::skin_distance(const Vec3& p) const {
-  const double distance = skin_tree.distance(p, kFar);
+  const double distance = skin_tree.get().distance(p, kFar);
   return is_inside(hull, p) ? -distance : distance;
 }
 
@@ -223,10 +215,10 @@ PlanGround make_ground(const JointFile& file, const PreparedSurfaces& surfaces) 
   ground.skin = skin_in_region(without_cuts(body.mesh, body.is_cut), ground.region);
   ground.hull = body.tree;
   if (body.is_cut.empty()) {
-    ground.skin_tree = body.tree;
+    ground.skin_tree = TreeWhenAsked(body.tree);
   } else {
-    ground.skin_tree = DistanceTree(without_cuts(body.mesh, body.is_cut));
-    ground.cut_tree = DistanceTree(without_cuts(body.mesh, body.is_cut, true));
+    ground.skin_tree = TreeWhenAsked([&body] { return without_cuts(body.mesh, body.is_cut); });
+    ground.cut_tree = TreeWhenAsked([&body] { return without_cuts(body.mesh, body.is_cut, true); });
   }
   ground.nearest_skin = nearest_of(ground.skin);
   ground.nearest_any_skin = [&body](const Vec3& p) {
@@ -239,7 +231,7 @@ PlanGround make_ground(const JointFile& file, const PreparedSurfaces& surfaces) 
     if (surfaces.structures[i] && tissue != file.tissues.end() && tissue->haptic.hard)
       ground.bones.push_back({file.structures[i].name, surfaces.structures[i]->tree});
   }
-  ground.layers = [layers = SurfaceLayers(file, surfaces)](const Segment& line) {
+  ground.layers = [layers = SurfaceLayers(file, surfaces, ground.skin_tree)](const Segment& line) {
     return layers.along(line);
   };
   return ground;
@@ -271,7 +263,7 @@ PlanGround make_ground(const CompiledJoint& joint, const std::optional<RegionOfI
   ground.hull = DistanceTree(hull);
   ground.nearest_skin = nearest_of(ground.skin);
   ground.nearest_any_skin = ground.nearest_skin;
-  ground.skin_tree = DistanceTree(ground.skin);
+  ground.skin_tree = TreeWhenAsked(DistanceTree(ground.skin));
   for (std::size_t r = 0; r < parts.size(); ++r) {
     if (parts[r].triangles.empty()) continue;
     parts[r].vertices = joint.mesh.vertices;

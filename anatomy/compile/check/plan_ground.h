@@ -26,13 +26,36 @@ struct HardPart {
   DistanceTree tree{SurfaceMesh{}};
 };
 
+/// A tree that is made when it is first asked for, since a joint without plans needs none and a
+/// skin's is large. Copies share it. Not for threads.
+class TreeWhenAsked {
+ public:
+  TreeWhenAsked() : TreeWhenAsked([] { return SurfaceMesh{}; }) {}
+  explicit TreeWhenAsked(std::function<SurfaceMesh()> surface)
+      : made_(std::make_shared<Made>(Made{std::move(surface), std::nullopt})) {}
+  explicit TreeWhenAsked(const DistanceTree& tree)
+      : made_(std::make_shared<Made>(Made{nullptr, tree})) {}
+
+  [[nodiscard]] const DistanceTree& get() const {
+    if (!made_->tree) made_->tree.emplace(made_->surface());
+    return *made_->tree;
+  }
+
+ private:
+  struct Made {
+    std::function<SurfaceMesh()> surface;
+    std::optional<DistanceTree> tree;
+  };
+  std::shared_ptr<Made> made_;
+};
+
 /// What poses and injections are checked against: a joint's repaired surfaces before anything is
 /// compiled, or the compiled body.
 struct PlanGround {
   SurfaceMesh skin;                  ///< where something can stand: skin in the region
   DistanceTree hull{SurfaceMesh{}};  ///< of all that is meshed, closed
-  DistanceTree skin_tree{SurfaceMesh{}};
-  DistanceTree cut_tree{SurfaceMesh{}};  ///< where the body's surface was cut and closed
+  TreeWhenAsked skin_tree;
+  TreeWhenAsked cut_tree;  ///< where the body's surface was cut and closed
   std::vector<HardPart> bones;
   std::optional<RegionOfInterest> region;
   bool is_compiled = false;  ///< constructs are among the layers

@@ -27,8 +27,7 @@ constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
 constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
 constexpr double kBandPerSpacing = 2.2;
 constexpr double kExtendedBandPerSpacing = 4;  // where a coarser field takes over
-constexpr double kFarSpacing =
-    0.4;  // of the joint's facet size, where constructs measure from afar
+constexpr double kFarSpacing = 0.4;  // of the joint's facet size, for what constructs see afar
 // A triangle across a tube or plate must not be much longer than it is thick, and must stray from
 // its surface by a small part of its thickness.
 constexpr double kFacetPerThickness = 1.2;
@@ -281,8 +280,9 @@ class FieldMaker {
   void end_at_cuts(const ShellConstruct& shell, const FieldSampling& sampling,
                    DistanceField& field) const {
     if (surfaces_.body.is_cut.empty()) return;
-    const DistanceTree skin(without_cuts(surfaces_.body.mesh, surfaces_.body.is_cut));
     const double far = shell.thickness + 2 * kFarSpacing * file_.facet_size + sampling.band;
+    const DistanceTree skin(part_near(grown(sampling.box.lower, sampling.box.upper, far),
+                                      without_cuts(surfaces_.body.mesh, surfaces_.body.is_cut)));
     const DistanceField whole = std::move(field);
     field = DistanceField::compute(
         [&](const Vec3& p) {

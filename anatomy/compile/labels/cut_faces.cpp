@@ -93,4 +93,15 @@ std::vector<std::uint8_t> find_cut_faces(const SurfaceMesh& read, const SurfaceM
   return any ? is_cut : std::vector<std::uint8_t>{};
 }
 
+SurfaceMesh part_near(const Box& box, SurfaceMesh mesh) {
+  const auto is_far = [&](const Triangle& t) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    return (a.cwiseMin(b).cwiseMin(c).array() > box.upper.array()).any() ||
+           (a.cwiseMax(b).cwiseMax(c).array() < box.lower.array()).any();
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_far),
+                       mesh.triangles.end());
+  return mesh;
+}
+
 }  // namespace artus

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "artus/detail/anatomy/compile/labels/distance_field.h"
 #include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
@@ -24,5 +25,8 @@ namespace artus {
 /// `is_cut` is empty. The vertices are those of `mesh`.
 [[nodiscard]] SurfaceMesh without_cuts(const SurfaceMesh& mesh,
                                        const std::vector<std::uint8_t>& is_cut, bool cut = false);
+
+/// A mesh without the triangles that do not reach into a box.
+[[nodiscard]] SurfaceMesh part_near(const Box& box, SurfaceMesh mesh);
 
 }  // namespace artus

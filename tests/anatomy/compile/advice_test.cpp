@@ -220,5 +220,39 @@ TEST_F(AdviceFolder, ARecessIsNeverToldToStandBeforeItsFloorAndTheAdviceKeepsThe
   EXPECT_THAT(bone.warnings[0], HasSubstr("put the bone before it"));
 }
 
+TEST_F(AdviceFolder, CartilageAsFloorDoesNotHalveARecessUnsaidAndTheAdviceMendsIt) {
+  folder_.add_sphere("roof", Vec3(0, 0, 40), 40);
+  folder_.add_sphere("floor", Vec3(0, 0, -43), 40);
+  folder_.add_sphere("cartilage", Vec3(0, 0, -43), 42.9);
+  const auto structure = [](const std::string& name, const std::string& tissue) {
+    return "[[structure]]\nname = \"" + name + "\"\ntissue = \"" + tissue + "\"\nfile = \"" + name +
+           ".ply\"\n";
+  };
+  const auto joint = [&](const std::string& thickness) {
+    return structure("floor", "bone") + structure("cartilage", "cartilage") +
+           "[[structure]]\nname = \"recess\"\ntissue = \"synovial_fluid\"\ngap = { roof = "
+           "[\"roof\"], "
+           "floor = [\"floor\", \"cartilage\"], thickness = " +
+           thickness + ", within = 6.0, centre = [0.0, 0.0, 0.0], radius = 8.0 }\n" +
+           structure("roof", "muscle");
+  };
+  const auto report_of = [](const CompileOutcome& outcome, const std::string& name) {
+    for (const StructureReport& r : outcome.report.structures)
+      if (r.name == name) return r;
+    return StructureReport{};
+  };
+  const auto first = compile(joint("1.5"));
+  ASSERT_TRUE(first) << first.error().to_string();
+  const StructureReport recess = report_of(*first, "recess");
+  ASSERT_FALSE(recess.warnings.empty());
+  EXPECT_THAT(recess.warnings[0], HasSubstr("its own wall 'cartilage'"));
+  EXPECT_TRUE(recess.is_changed()) << "the table marks it";
+  const auto followed = compile(joint("3.0"));
+  ASSERT_TRUE(followed) << followed.error().to_string();
+  EXPECT_GT(report_of(*followed, "recess").resolved_volume, 1.4 * recess.resolved_volume);
+  EXPECT_NEAR(report_of(*followed, "cartilage").resolved_volume,
+              report_of(*first, "cartilage").resolved_volume, 0.02e-6);
+}
+
 }  // namespace
 }  // namespace artus

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/anatomy/import/image_volume.h"
 #include "artus/detail/anatomy/import/label_volume.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
 
 namespace artus::test {
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/anatomy/import/image_volume.h"
-#include "artus/detail/anatomy/import/inflate.h"
 #include "artus/detail/anatomy/import/label_volume.h"
-#include "artus/detail/anatomy/import/volume_text.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
+#include "artus/detail/anatomy/import/volumes/volume_text.h"
 #include "tests/anatomy/import/label_samples.h"
 #include "tests/support/paths.h"
 

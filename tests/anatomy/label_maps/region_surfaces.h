@@ -46,8 +46,9 @@ struct SurfaceDifference {
 };
 
 /// Points of `got` (the middles of its triangles, `n` of them about) against `truth`. Smooth is
-/// what lies at a triangle whose neighbours are turned by less than 20 degrees.
-inline SurfaceDifference compare(const SurfaceMesh& got, const SurfaceMesh& truth, std::size_t n) {
+/// what lies at a triangle whose neighbours are turned by less than `smooth` degrees.
+inline SurfaceDifference compare(const SurfaceMesh& got, const SurfaceMesh& truth, std::size_t n,
+                                 double smooth = 20) {
   std::vector<Vec3> normals;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
   for (std::size_t f = 0; f < truth.triangles.size(); ++f) {
@@ -60,10 +61,10 @@ inline SurfaceDifference compare(const SurfaceMesh& got, const SurfaceMesh& trut
     }
   }
   std::vector<bool> is_sharp(truth.triangles.size(), false);
-  constexpr double kSmooth = 0.94;  // cosine of 20 degrees
+  const double least_cosine = std::cos(smooth / 57.29577951308232);
   for (const auto& [edge, faces] : edges)
     for (const std::size_t f : faces)
-      if (faces.size() != 2 || normals[faces[0]].dot(normals[faces[1]]) < kSmooth)
+      if (faces.size() != 2 || normals[faces[0]].dot(normals[faces[1]]) < least_cosine)
         is_sharp[f] = true;
   std::vector<double> distances;
   double squares = 0, area = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <array>
 
-#include "artus/detail/anatomy/import/image_volume.h"
-#include "artus/detail/anatomy/import/volume_text.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/volume_text.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_lines.h"
 #include "artus/detail/core/units.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "artus/detail/anatomy/import/image_volume.h"
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 

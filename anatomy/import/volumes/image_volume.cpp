@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/import/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
 
 #include <algorithm>
 #include <cmath>

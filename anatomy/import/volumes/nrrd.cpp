@@ -3,8 +3,8 @@
 #include <array>
 #include <map>
 
-#include "artus/detail/anatomy/import/image_volume.h"
-#include "artus/detail/anatomy/import/volume_text.h"
+#include "artus/detail/anatomy/import/volumes/image_volume.h"
+#include "artus/detail/anatomy/import/volumes/volume_text.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_lines.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/import/volume_text.h"
+#include "artus/detail/anatomy/import/volumes/volume_text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/volumes/inflate.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_lines.h"
