@@ -209,8 +209,8 @@ class Session {
   std::atomic<std::uint64_t> ticks_{0};
   std::atomic<std::uint64_t> frames_{0};
   std::atomic<std::uint64_t> overruns_{0};
-  std::atomic<bool> prepared_;  // tissue and picture, or tried in vain
-  std::int64_t start_ns_ = 0;   // of the first tick
+  std::atomic<bool> prepared_;                  // tissue and picture, or tried in vain
+  std::int64_t start_ns_ = 0;                   // of the first tick
   std::array<std::int64_t, 31> image_times_{};  // ns, a ring of the last images
   std::size_t n_images_ = 0;
   mutable std::mutex told_mutex_;  // between slow threads and a person's question, never in a tick

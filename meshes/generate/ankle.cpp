@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/meshes/generate/ankle.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "artus/detail/core/check.h"
+#include "artus/detail/core/units.h"
 #include "artus/detail/meshes/generate/limb.h"
 #include "artus/detail/meshes/generate/sweep.h"
 
@@ -14,7 +18,42 @@ const Vec3 kLateral(-1, 0, 0);
 const Vec3 kMedial(1, 0, 0);
 const Vec3 kUp(0, 0, 1);
 
-// A drum with a radius of 20.7 mm, 29.9 mm wide in front and 25.2 mm behind [Siegler2007].
+// The foot is drawn square to the leg and turned about the dome's axis, toes down, which opens the
+// front of the joint as patients are asked to do.
+constexpr double kPlantarflexion = 20;  // degrees, assumed
+
+Vec3 turn(const Vec3& p, double share = 1) {
+  return Eigen::AngleAxisd(share * kPlantarflexion * kDegree, Vec3::UnitX()) * p;
+}
+
+Field turn(Field field) {
+  return [field = std::move(field)](const Vec3& p) {
+    return field(turn(p, -1));
+  };
+}
+
+// A station of what runs from leg to foot: the foot's part turns with it.
+template <class Station>
+Station bend(Station station) {
+  const double share = std::clamp((12 - station[2]) / 20, 0.0, 1.0);
+  const Vec3 turned =
+      turn(Vec3(station[0], station[1], station[2]), share * share * (3 - 2 * share));
+  std::copy_n(turned.data(), 3, station.begin());
+  return station;
+}
+
+Solid make_course(std::string name, const Millimetres& mm, std::vector<RodStation> stations) {
+  for (RodStation& s : stations) s = bend(s);
+  return make_rod_part(std::move(name), mm, stations);
+}
+
+Solid make_course(std::string name, const Millimetres& mm, const Vec3& normal,
+                  std::vector<StrapStation> stations) {
+  for (StrapStation& s : stations) s = bend(s);
+  return make_strap_part(std::move(name), mm, normal, stations);
+}
+
+// A drum with a radius of 20.7 mm, 29.9 mm wide in front and 25.2 mm behind [Hayes2006].
 Field make_dome(const Millimetres& mm) {
   const Field drum = make_rod(mm, {{-30, 0, 0, 20.7}, {30, 0, 0, 20.7}});
   const Field sides = intersect(make_half_space(mm.at(13.8, 0, 0), Vec3(1, 0.06, 0)),
@@ -28,8 +67,8 @@ Field make_talus(const Millimetres& mm) {
   const Field neck =
       make_rod(mm, {{0, -6, 3, 10}, {3, -20, 0, 8.6}, {5.5, -29, -3, 9.6}, {6.5, -33, -4, 9.6}});
   const Field process = make_rod(mm, {{0, 12, -1, 7}, {-1, 20, -3, 4.5}});
-  return unite(unite(make_dome(mm), body, mm.length(4)), unite(neck, process, mm.length(3)),
-               mm.length(4));
+  return turn(unite(unite(make_dome(mm), body, mm.length(4)), unite(neck, process, mm.length(3)),
+                    mm.length(4)));
 }
 
 // The plafond on the dome with cartilage on both, and the medial malleolus beside it.
@@ -65,16 +104,15 @@ Field make_calcaneus(const Millimetres& mm) {
   const Field tuberosity = make_ellipsoid(mm.at(0, 32.6, -22.5), mm.at(13.5, 15, 21));
   const Field corner = make_rod(mm, {{-6, 40.3, -7.8, 5.6}, {6, 40.3, -7.8, 5.6}});
   const Field shelf = make_rod(mm, {{2, -2, -15, 6}, {12, -4, -14, 4.6}});
-  return unite(unite(length, unite(tuberosity, corner, mm.length(4)), mm.length(6)), shelf,
-               mm.length(4));
+  return turn(unite(unite(length, unite(tuberosity, corner, mm.length(4)), mm.length(6)), shelf,
+                    mm.length(4)));
 }
 
 std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
   const double reach = mm.length(240);
-  const Field dome = make_dome(mm);
   const Field drum = make_rod(mm, {{-13.4, 0, 0, 20.7}, {13.4, 0, 0, 20.7}});
-  const Field talar = make_layer(drum, -0.6e-3, size.cartilage,
-                                 make_ellipsoid(mm.at(0, 0, 17), mm.at(13.6, 19.5, 13)));
+  const Field talar = turn(make_layer(drum, -0.6e-3, size.cartilage,
+                                      make_ellipsoid(mm.at(0, 0, 17), mm.at(13.6, 19.5, 13))));
   const Field tibial = make_layer(drum, size.cartilage, 2.6 * size.cartilage,
                                   grow(make_tibia(mm, size), 2 * size.cartilage));
   const Field roof =
@@ -83,11 +121,11 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
   return {{"tibia", make_tibia(mm, size), mm.at(3, 4, 70), reach, 2.4e-3, 0.12e-3},
           {"fibula", make_fibula(mm), mm.at(-22.5, 9, 60), reach, 2.4e-3, 0.12e-3},
           {"talus", make_talus(mm), mm.at(0, 0, 8), reach, 2e-3, 0.1e-3},
-          {"calcaneus", make_calcaneus(mm), mm.at(0, 25, -21), reach, 2.4e-3, 0.12e-3},
+          {"calcaneus", make_calcaneus(mm), turn(mm.at(0, 25, -21)), reach, 2.4e-3, 0.12e-3},
           {"navicular",
-           subtract(make_ellipsoid(mm.at(8.5, -43, -6), mm.at(15, 8, 11.5)),
+           subtract(turn(make_ellipsoid(mm.at(8.5, -43, -6), mm.at(15, 8, 11.5))),
                     grow(make_talus(mm), 1.4e-3), mm.length(1)),
-           mm.at(8.5, -48, -6), reach, 2.4e-3, 0.12e-3},
+           turn(mm.at(8.5, -48, -6)), reach, 2.4e-3, 0.12e-3},
           {"talar_cartilage", talar, Vec3(0, 0, top + 0.4 * size.cartilage), mm.length(60), 1.6e-3,
            0.08e-3},
           {"tibial_cartilage", roof, Vec3(0, 0, top + 1.8 * size.cartilage), mm.length(60), 1.5e-3,
@@ -97,83 +135,88 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
 // In front the artery with the deep peroneal nerve between the toes' extensors; behind the medial
 // malleolus the tibial nerve behind its artery; behind the lateral one the sural nerve.
 std::vector<Solid> make_lines(const Millimetres& mm) {
-  return {make_rod_part("tibial_nerve", mm,
-                        {{8, 27, 70, 2.2},
-                         {12, 27.5, 34, 2.2},
-                         {16.6, 24.5, 10, 2.1},
-                         {17.6, 17.5, -10, 1.9},
-                         {16.5, 6, -23, 1.6},
-                         {13, -12, -31, 1.5}}),
-          make_rod_part("posterior_tibial_artery", mm,
-                        {{10.5, 24, 70, 1.5},
-                         {14.6, 24, 34, 1.5},
-                         {18.8, 20.5, 10, 1.5},
-                         {19.4, 13.5, -10, 1.4},
-                         {18, 2, -21, 1.3},
-                         {14.5, -14, -28, 1.2}}),
-          make_rod_part("anterior_tibial_artery", mm,
-                        {{-7, -12, 75, 1.4},
-                         {-3.4, -18.4, 45, 1.4},
-                         {-1.4, -21.6, 26, 1.4},
-                         {0, -26.4, 12, 1.3},
-                         {2, -36, 7, 1.3},
-                         {4, -50, 5, 1.2}}),
-          make_rod_part("deep_peroneal_nerve", mm,
-                        {{-9.5, -11.4, 75, 1.1},
-                         {-6, -18, 45, 1.1},
-                         {-4.2, -21.4, 26, 1.1},
-                         {-3, -26.4, 12, 1},
-                         {-1, -36, 7, 1},
-                         {1, -50, 5, 0.9}}),
-          make_rod_part("sural_nerve", mm,
-                        {{-13, 43, 75, 1.1},
-                         {-17.5, 38, 38, 1.1},
-                         {-22.4, 30, 10, 1.1},
-                         {-25, 17, -12, 1},
-                         {-26, -4, -24, 1}})};
+  return {make_course("tibial_nerve", mm,
+                      {{8, 27, 70, 2.2},
+                       {12, 27.5, 34, 2.2},
+                       {16.6, 24.5, 10, 2.1},
+                       {17.6, 17.5, -10, 1.9},
+                       {16.5, 6, -23, 1.6},
+                       {13, -12, -31, 1.5}}),
+          make_course("posterior_tibial_artery", mm,
+                      {{10.5, 24, 70, 1.5},
+                       {14.6, 24, 34, 1.5},
+                       {18.8, 20.5, 10, 1.5},
+                       {19.4, 13.5, -10, 1.4},
+                       {18, 2, -21, 1.3},
+                       {14.5, -14, -28, 1.2}}),
+          make_course("anterior_tibial_artery", mm,
+                      {{-7, -12, 75, 1.4},
+                       {-3.4, -18.4, 45, 1.4},
+                       {-1.4, -21.6, 26, 1.4},
+                       {0, -26.4, 12, 1.3},
+                       {2, -36, 7, 1.3},
+                       {4, -50, 5, 1.2}}),
+          make_course("deep_peroneal_nerve", mm,
+                      {{-9.5, -11.4, 75, 1.1},
+                       {-6, -18, 45, 1.1},
+                       {-4.2, -21.4, 26, 1.1},
+                       {-3, -26.4, 12, 1},
+                       {-1, -36, 7, 1},
+                       {1, -50, 5, 0.9}}),
+          make_course("sural_nerve", mm,
+                      {{-13, 43, 75, 1.1},
+                       {-17.5, 38, 38, 1.1},
+                       {-22.4, 30, 10, 1.1},
+                       {-25, 17, -12, 1},
+                       {-26, -4, -24, 1}})};
 }
 
 // [Mohammed2023] 4.6 mm thick and 12 mm wide above the heel, 4.4 and 22 mm at its insertion.
 std::vector<Solid> make_achilles(const Millimetres& mm, const AnkleSize& size) {
   const double half = 0.5 * size.bursa / mm.length(1);
-  return {make_strap_part("retrocalcaneal_bursa", mm, kBack,
-                          {{0, 47.1, -15.5, 6, 0.5 * half},
-                           {0, 46.6, -9, 8.5, half},
-                           {0, 46, -2, 8.5, half},
-                           {0, 45, 6, 6, 0.6 * half}}),
+  const auto turned = [](StrapStation station) {
+    const Vec3 p = turn(Vec3(station[0], station[1], station[2]));
+    std::copy_n(p.data(), 3, station.begin());
+    return station;
+  };
+  return {make_strap_part(
+              "retrocalcaneal_bursa", mm, kBack,
+              {turned({0, 47.3, -15.5, 6, 0.8 * half}), turned({0, 46.8, -9, 8.5, 1.4 * half}),
+               turned({0, 46.7, -4.5, 8.5, 1.4 * half}), turned({0, 47.8, 0, 6, 0.8 * half})}),
           make_strap_part("achilles_tendon", mm, kBack,
-                          {{0, 46.6, -37, 9, 0.5},
-                           {0, 48.6, -29, 10.9, 1.6},
-                           {0, 49.8, -19, 10.6, 2.3},
-                           {0, 49.6, -6, 8.6, 2.3},
-                           {0, 48.4, 10, 6.6, 2.3},
-                           {0, 47.4, 30, 6.1, 2.3},
-                           {0, 46.4, 55, 6.6, 2.2},
+                          {bend(StrapStation{0, 46.6, -37, 9, 0.5}),
+                           bend(StrapStation{0, 48.6, -29, 10.9, 1.6}),
+                           bend(StrapStation{0, 49.8, -19, 10.6, 2.3}),
+                           bend(StrapStation{0, 49.4, -8, 8.6, 2.3}),
+                           {0, 47.8, 26, 6.4, 2.3},
+                           {0, 47.2, 40, 6.1, 2.3},
+                           {0, 46.4, 58, 6.6, 2.2},
                            {0, 45.4, 85, 8, 2}}),
           make_strap_part("kager_fat_pad", mm, kBack,
-                          {{0, 34, -6, 9, 5},
-                           {0, 37, 4, 11, 10},
-                           {0, 37.2, 20, 10.5, 9.2},
-                           {0, 38.4, 40, 8, 6.4},
+                          {{0, 34, 6, 9, 4},
+                           {0, 36.6, 14, 10, 8},
+                           {0, 37.2, 26, 10, 8.4},
+                           {0, 38.6, 42, 8, 6.2},
                            {0, 40.4, 62, 5, 2.6},
                            {0, 41.6, 74, 3, 1}})};
 }
 
-// Over the neck of the talus from the tibia's lip on, under a fat pad.
+// Over the neck of the talus from the tibia's lip on.
 std::vector<Solid> make_front_of_joint(const Millimetres& mm, const AnkleSize& size) {
-  const Field bones =
-      unite(make_tibia(mm, size), grow(make_talus(mm), size.cartilage), mm.length(1.2));
-  const Field outline = make_ellipsoid(mm.at(2.5, -18, 15), mm.at(12, 9.5, 8.5));
-  const double kept = 0.3e-3;  // synovium on bone
+  const Field talus = grow(make_talus(mm), size.cartilage);
+  const Field bones = unite(make_tibia(mm, size), talus, mm.length(1.2));
+  const Field smooth = unite(make_tibia(mm, size), talus, mm.length(7));
+  const Field outline = make_ellipsoid(mm.at(2, -18.5, 12), mm.at(15.5, 10, 13));
+  const double deep = -0.8e-3;  // into bone and cartilage, which take their share
   const Vec3 from = mm.at(3, -8, 14);
+  // It fills the corner between tibia and talus; the capsule passes over it smoothly.
+  const Field recess = intersect(subtract(grow(smooth, size.recess), grow(bones, deep), 0.2e-3),
+                                 outline, 1.2 * size.recess);
   return {
-      {"anterior_recess", make_layer(bones, kept, kept + size.recess, outline),
-       find_outside(bones, from, kFront, kept + 0.5 * size.recess), mm.length(60), 1.4e-3, 0.06e-3},
-      {"anterior_capsule",
-       make_layer(bones, kept + 0.5 * size.recess, kept + size.recess + 0.9e-3,
-                  grow(outline, 2e-3)),
-       find_outside(bones, from, kFront, kept + size.recess + 0.45e-3), mm.length(60), 1.4e-3,
-       0.06e-3},
+      {"anterior_recess", recess, find_outside(smooth, from, kFront, 0.5 * size.recess),
+       mm.length(60), 1.4e-3, 0.06e-3},
+      {"anterior_capsule", make_layer(smooth, deep, size.recess + 1e-3, grow(outline, 2e-3)),
+       find_outside(smooth, from, kFront, size.recess + 0.5e-3), mm.length(60), 1.4e-3, 0.06e-3},
       make_strap_part(
           "anterior_talofibular_ligament", mm, Vec3(-0.8, -0.6, 0.1),
           {{-24, -1, -1, 3.4, 1.1}, {-19, -7.4, -0.5, 3.8, 1.1}, {-12.5, -13, 0.5, 3.2, 1}}),
@@ -185,90 +228,86 @@ std::vector<Solid> make_front_tendons(const Millimetres& mm) {
   const auto over = [&](double x, double y, const Vec3& normal) {
     return RibbonStation{mm.at(x, y, 34), normal.normalized(), mm.length(7), mm.length(0.55)};
   };
-  return {make_rod_part("tibialis_anterior_tendon", mm,
-                        {{7, -14, 80, 2.6},
-                         {9, -19, 50, 2.6},
-                         {10.6, -22.6, 30, 2.6},
-                         {12, -27, 14, 2.6},
-                         {15, -36.5, 4, 2.5},
-                         {20, -48, -5, 2.4}}),
-          make_rod_part("extensor_hallucis_longus", mm,
-                        {{-1, -14, 80, 2},
-                         {1, -19.4, 50, 2},
-                         {2.2, -23.6, 30, 2},
-                         {3, -28.6, 13, 2},
-                         {4, -40, 8, 1.9},
-                         {7, -56, 5, 1.8}}),
-          make_strap_part("extensor_digitorum_longus", mm, Vec3(0, -0.9, 0.3),
-                          {{-10, -12, 80, 3, 2},
-                           {-8.6, -19, 50, 4, 1.8},
-                           {-8, -23, 30, 4.4, 1.7},
-                           {-8, -28.2, 13, 5, 1.6},
-                           {-9, -40, 7, 7, 1.5},
-                           {-10, -56, 3, 9, 1.4}}),
-          {"anterior_fat_pad", make_ellipsoid(mm.at(2.5, -20.5, 15.5), mm.at(14, 8.6, 11)),
-           mm.at(2.5, -24, 14), mm.length(60), 2e-3, 0.1e-3},
+  return {make_course("tibialis_anterior_tendon", mm,
+                      {{7, -14, 80, 2.6},
+                       {9, -19, 50, 2.6},
+                       {10.8, -22.6, 30, 2.6},
+                       {12.6, -26.6, 14, 2.6},
+                       {15, -35.5, 3, 2.5},
+                       {20, -48, -5, 2.4}}),
+          make_course("extensor_hallucis_longus", mm,
+                      {{-1, -14, 80, 2},
+                       {1, -19.4, 50, 2},
+                       {2.2, -23, 30, 2},
+                       {3, -27.6, 14, 2},
+                       {4, -37.5, 8, 1.9},
+                       {7, -56, 4, 1.8}}),
+          make_course("extensor_digitorum_longus", mm, Vec3(0, -0.9, 0.3),
+                      {{-10, -12, 80, 3, 2},
+                       {-8.6, -18.6, 50, 4, 1.8},
+                       {-8, -22.6, 30, 4.4, 1.7},
+                       {-8, -27, 14, 5, 1.6},
+                       {-9, -37.5, 7, 7, 1.5},
+                       {-10, -56, 3, 9, 1.4}}),
           {"extensor_retinaculum",
-           make_ribbon({over(17, -15.8, {0.6, -1, 0}), over(11, -23.4, {0.3, -1, 0}),
-                        over(2, -25.8, {0, -1, 0}), over(-8, -25, {-0.2, -1, 0}),
-                        over(-16.5, -16.6, {-0.7, -0.8, 0})},
+           make_ribbon({over(17, -16.4, {0.6, -1, 0}), over(11, -24.6, {0.3, -1, 0}),
+                        over(2, -25.6, {0, -1, 0}), over(-8, -24.8, {-0.2, -1, 0}),
+                        over(-16.5, -16.8, {-0.7, -0.8, 0})},
                        3),
-           mm.at(2, -25.8, 34), mm.length(80), 1.4e-3, 0.07e-3}};
+           mm.at(2, -25.6, 34), mm.length(80), 1.4e-3, 0.07e-3}};
 }
 
 std::vector<Solid> make_side_tendons(const Millimetres& mm) {
-  return {make_rod_part("tibialis_posterior_tendon", mm,
-                        {{10, 19, 70, 2.4},
-                         {15.5, 17.5, 34, 2.6},
-                         {22, 9.5, 10, 2.6},
-                         {23.4, 2, -4, 2.6},
-                         {22.5, -14, -12, 2.5},
-                         {20, -34, -13, 2.5}}),
-          make_rod_part("flexor_digitorum_longus", mm,
-                        {{8, 22, 70, 2},
-                         {14, 21, 34, 1.9},
-                         {21.4, 15, 10, 1.9},
-                         {22.6, 7.5, -8, 1.9},
-                         {20, -10, -18, 1.9},
-                         {14, -30, -24, 1.9}}),
-          make_rod_part("flexor_hallucis_longus_tendon", mm,
-                        {{-2, 25, 30, 1.6},
-                         {1, 24.6, 14, 2.2},
-                         {5, 23, -2, 2.3},
-                         {10, 12, -14, 2.3},
-                         {13, -6, -20, 2.2},
-                         {12, -30, -26, 2.2}}),
-          make_rod_part("peroneus_longus_tendon", mm,
-                        {{-27, 14, 70, 2.6},
-                         {-27, 17, 34, 2.5},
-                         {-26, 17.6, 8, 2.4},
-                         {-25.4, 12, -12, 2.4},
-                         {-22, -8, -26, 2.3},
-                         {-16, -22, -34, 2.3}}),
-          make_rod_part("peroneus_brevis_tendon", mm,
-                        {{-23, 17, 70, 2.4},
-                         {-23.4, 17.8, 34, 2.1},
-                         {-23, 16, 8, 2},
-                         {-24, 9, -11, 2},
-                         {-24, -12, -19, 2},
-                         {-26, -36, -25, 2}})};
+  return {make_course("tibialis_posterior_tendon", mm,
+                      {{10, 19, 70, 2.4},
+                       {15.5, 17.5, 34, 2.6},
+                       {22, 9.5, 10, 2.6},
+                       {23.4, 2, -4, 2.6},
+                       {22.5, -14, -12, 2.5},
+                       {20, -34, -13, 2.5}}),
+          make_course("flexor_digitorum_longus", mm,
+                      {{8, 22, 70, 2},
+                       {14, 21, 34, 1.9},
+                       {21.4, 15, 10, 1.9},
+                       {22.6, 7.5, -8, 1.9},
+                       {20, -10, -18, 1.9},
+                       {14, -30, -24, 1.9}}),
+          make_course("flexor_hallucis_longus_tendon", mm,
+                      {{-2, 25, 30, 1.6},
+                       {1, 24.6, 14, 2.2},
+                       {5, 23, -2, 2.3},
+                       {10, 12, -14, 2.3},
+                       {13, -6, -20, 2.2},
+                       {12, -30, -26, 2.2}}),
+          make_course("peroneus_longus_tendon", mm,
+                      {{-27, 14, 70, 2.6},
+                       {-27, 17, 34, 2.5},
+                       {-26, 17.6, 8, 2.4},
+                       {-25.4, 12, -12, 2.4},
+                       {-22, -8, -26, 2.3},
+                       {-16, -22, -34, 2.3}}),
+          make_course("peroneus_brevis_tendon", mm,
+                      {{-23, 17, 70, 2.4},
+                       {-23.4, 17.8, 34, 2.1},
+                       {-23, 16, 8, 2},
+                       {-24, 9, -11, 2},
+                       {-24, -12, -19, 2},
+                       {-26, -36, -25, 2}})};
 }
 
 std::vector<Solid> make_muscles(const Millimetres& mm) {
-  return {make_rod_part("flexor_hallucis_longus", mm,
-                        {{-9, 22, 100, 11},
-                         {-9, 24, 60, 10},
-                         {-6, 25, 34, 7.6},
-                         {-2, 25.4, 18, 4},
-                         {0, 25, 8, 2}}),
-          make_rod_part("soleus", mm,
-                        {{0, 37, 130, 15}, {0, 38, 100, 10.5}, {0, 40.4, 76, 5}, {0, 42, 58, 1.6}}),
-          make_rod_part(
-              "anterior_muscles", mm,
-              {{2, -12, 130, 13}, {1, -12.6, 100, 9.4}, {0, -14.6, 76, 4.6}, {0, -17, 58, 1.6}}),
-          make_rod_part(
-              "peroneal_muscles", mm,
-              {{-26, 14, 120, 9}, {-25.6, 15.6, 80, 7}, {-24.6, 17.4, 52, 4}, {-24, 17.6, 36, 2}})};
+  return {
+      make_rod_part("flexor_hallucis_longus", mm,
+                    {{-9, 22, 100, 11},
+                     {-9, 24, 60, 10},
+                     {-6, 25, 34, 7.6},
+                     {-2, 25.4, 18, 4},
+                     {0, 25, 8, 2}}),
+      make_rod_part("anterior_muscles", mm,
+                    {{2, -12, 130, 13}, {1, -12.6, 96, 10}, {0, -14.6, 70, 5}, {0, -18, 48, 1.6}}),
+      make_rod_part(
+          "peroneal_muscles", mm,
+          {{-26, 14, 120, 9}, {-25.6, 15.6, 80, 7}, {-24.6, 17.4, 52, 4}, {-24, 17.6, 36, 2}})};
 }
 
 // Where bone or tendon lies under the skin, the skin follows it.
@@ -282,21 +321,21 @@ Field make_skin(const Millimetres& mm) {
   const Field leg =
       make_ribbon({leg_at(14, 160, 44, 46), leg_at(14, 100, 38, 40), leg_at(12, 55, 32.5, 38.4),
                    leg_at(8, 28, 31, 39.6), leg_at(7, 2, 29, 39)});
-  const Field foot = make_ribbon(
+  const Field foot = turn(make_ribbon(
       {foot_at(0, 18, -22, 26, 27), foot_at(0, -6, -18, 29, 33), foot_at(1, -32, -20, 34, 33),
        foot_at(2, -66, -25, 39, 27), foot_at(0, -130, -34, 42, 18)},
-      2.3);
+      2.3));
   const Field malleoli = unite(
       make_rod(mm, {{17.5, -1, 30, 11.5}, {20, -2, 14, 11}, {20.4, 0, 4, 9.6}}),
       make_rod(mm, {{-22, 9, 40, 10.5}, {-22, 8, 24, 11.4}, {-22.4, 7, 2, 11.2}, {-21, 8, -10, 8}}),
       0);
-  const Field heel = make_rod(mm, {{0, 29, -30, 25},
-                                   {0, 34, -18, 20},
-                                   {0, 41.6, -4, 14.6},
-                                   {0, 42.4, 14, 11.6},
-                                   {0, 41, 40, 11.6},
+  const Field heel = make_rod(mm, {bend(RodStation{0, 29, -30, 25}),
+                                   bend(RodStation{0, 34, -18, 20}),
+                                   bend(RodStation{0, 41, -6, 15}),
+                                   {0, 42.6, 26, 11.4},
+                                   {0, 41.4, 44, 11.6},
                                    {0, 36, 80, 17}});
-  const Field limb = unite(leg, foot, mm.length(26));
+  const Field limb = unite(leg, foot, mm.length(24));
   return unite(unite(limb, heel, mm.length(10)), malleoli, mm.length(12));
 }
 

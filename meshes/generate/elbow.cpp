@@ -30,8 +30,8 @@ Field make_articular_end(const Millimetres& mm) {
   return unite(make_trochlea(mm), make_capitellum(mm), mm.length(3));
 }
 
-// Two columns around the fossae, 59 mm wide over the epicondyles [NorthChina2024]; the shaft's axis
-// runs behind the axis of the joint.
+// Two columns around the fossae, 59 mm wide over the epicondyles [DistalHumerus2024]; the shaft's
+// axis runs behind the axis of the joint.
 Field make_humerus_bone(const Millimetres& mm) {
   const Field shaft =
       make_rod(mm, {{0, 9, 130, 10}, {0, 9, 62, 10}, {0, 8, 44, 9.6}, {0, 7, 32, 8}});
@@ -64,7 +64,7 @@ Field make_ulna(const Millimetres& mm, const ElbowSize& size) {
   return subtract(block, grow(make_articular_end(mm), 2 * size.cartilage), mm.length(1));
 }
 
-// A dish of 22 mm on a neck [Radialhead2022], which turns on the capitellum.
+// A dish of 22 mm on a neck [RadialHead2022], which turns on the capitellum.
 Field make_radius(const Millimetres& mm, const ElbowSize& size) {
   const Field head =
       make_strap(mm, kLateral, {{-13, -16, 0, 10.8, 10.8}, {-13, -22, 0, 10.6, 10.6}});
@@ -104,8 +104,8 @@ std::vector<Solid> make_bones(const Millimetres& mm, const ElbowSize& size) {
            mm.length(40), 1.3e-3, 0.08e-3}};
 }
 
-// [Ulnar8] the ulnar nerve in its groove; the brachial artery with the median nerve on its medial
-// side.
+// The ulnar nerve in its groove; the brachial artery with the median nerve on its medial side.
+// assumed: diameters of 2.6 to 4 mm.
 std::vector<Solid> make_lines(const Millimetres& mm) {
   return {make_rod_part("ulnar_nerve", mm,
                         {{22, 20, 70, 1.6},
@@ -145,31 +145,28 @@ std::vector<Solid> make_bursae(const Millimetres& mm, const ElbowSize& size) {
   const Field olecranon =
       make_layer(ulna, begin, begin + size.bursa, intersect(over_olecranon, back_and_down, 1e-3));
   const Field humerus = make_humerus_bone(mm);
-  const Field fossa = make_ellipsoid(mm.at(3.5, 10, 17.5), mm.at(12, 9, 10.5));
-  const double kept = 0.3e-3;  // synovium on bone
+  const Field fossa = make_ellipsoid(mm.at(3.5, 10, 18), mm.at(15, 10.5, 13));
+  const double deep = -0.8e-3;  // into bone, which takes its share
   const Vec3 middle = mm.at(3.5, 5, 17);
-  return {{"olecranon_bursa", olecranon,
-           find_outside(ulna, mm.at(5, 14, -17), Vec3(0, 0.6, -0.8), begin + 0.5 * size.bursa),
-           mm.length(60), 1.2e-3, 0.05e-3},
-          {"posterior_recess", make_layer(humerus, kept, kept + size.recess, fossa),
-           find_outside(humerus, middle, kBack, kept + 0.5 * size.recess), mm.length(50), 1.3e-3,
-           0.06e-3},
-          {"posterior_capsule",
-           make_layer(humerus, kept + 0.4 * size.recess, kept + size.recess + 0.7e-3,
-                      grow(fossa, 1.6e-3)),
-           find_outside(humerus, middle, kBack, kept + size.recess + 0.3e-3), mm.length(60), 1.3e-3,
-           0.06e-3},
-          {"posterior_fat_pad", make_ellipsoid(mm.at(3.5, 16, 16.5), mm.at(13.5, 6.6, 12)),
-           mm.at(3.5, 18, 16), mm.length(60), 1.6e-3, 0.08e-3},
-          make_strap_part("radiohumeral_bursa", mm, kLateral,
-                          {{-26.3, -6, 1.5, 3, 0.3},
-                           {-26.2, -11, 1.2, 4.5, 0.45},
-                           {-26.3, -17, 0.8, 4.8, 0.45},
-                           {-26.8, -24, 0, 3.5, 0.3}})};
+  return {
+      {"olecranon_bursa", olecranon,
+       find_outside(ulna, mm.at(5, 14, -17), Vec3(0, 0.6, -0.8), begin + 0.5 * size.bursa),
+       mm.length(60), 1.2e-3, 0.05e-3},
+      {"posterior_recess", make_layer(humerus, deep, size.recess, fossa),
+       find_outside(humerus, middle, kBack, 0.5 * size.recess), mm.length(50), 1.3e-3, 0.06e-3},
+      {"posterior_capsule", make_layer(humerus, deep, size.recess + 1e-3, grow(fossa, 1.6e-3)),
+       find_outside(humerus, middle, kBack, size.recess + 0.5e-3), mm.length(60), 1.3e-3, 0.06e-3},
+      {"posterior_fat_pad", make_ellipsoid(mm.at(3.5, 16, 16.5), mm.at(13.5, 6.6, 12)),
+       mm.at(3.5, 18, 16), mm.length(60), 1.6e-3, 0.08e-3},
+      make_strap_part("radiohumeral_bursa", mm, kLateral,
+                      {{-26.3, -6, 1.5, 3, 0.3},
+                       {-26.2, -11, 1.2, 4.5, 0.45},
+                       {-26.3, -17, 0.8, 4.8, 0.45},
+                       {-26.8, -24, 0, 3.5, 0.3}})};
 }
 
-// Under the skin of the lateral side: tendon on bursa on ligament. [Ustuner2013] the tendon is 4.6
-// mm thick over the epicondyle, 3.6 over the joint and 3.2 over the radial head.
+// Under the skin of the lateral side: tendon on bursa [Osgood1922] on ligament. [Ustuner2013] the
+// tendon is 4.6 mm thick over the epicondyle, 3.6 over the joint and 3.2 over the radial head.
 std::vector<Solid> make_lateral_side(const Millimetres& mm) {
   return {make_strap_part("common_extensor_tendon", mm, kLateral,
                           {{-29.2, 6.5, 4.6, 4, 0.5},
@@ -271,10 +268,7 @@ std::vector<Solid> make_muscles(const Millimetres& mm) {
                          {-1.5, -27, 28, 2.8},
                          {-4, -31, 12, 2.5},
                          {-6.5, -40, 4, 2.2},
-                         {-6, -44, -1, 2}}),
-          make_rod_part(
-              "biceps", mm,
-              {{-1, -24, 110, 16}, {-1, -26, 80, 11}, {0, -26.5, 58, 5}, {0, -26.8, 46, 2.5}})};
+                         {-6, -44, -1, 2}})};
 }
 
 // Where bone lies under the skin, the skin follows it.

@@ -11,7 +11,7 @@ namespace artus {
 struct ElbowSize {
   double scale = 1;           ///< 1: a humerus 61 mm wide at the epicondyles
   double cartilage = 1.3e-3;  ///< on humerus, ulna and radial head
-  double recess = 2.6e-3;     ///< posterior recess in the olecranon fossa
+  double recess = 4.4e-3;     ///< posterior recess in the olecranon fossa, full as with an effusion
   double bursa = 0.9e-3;      ///< olecranon and radiohumeral bursa
 };
 

@@ -58,7 +58,7 @@ Solid make_strap_part(std::string name, const Millimetres& mm, const Vec3& norma
 }
 
 Field make_layer(const Field& inner, double begin, double end, const Field& outline) {
-  const double rim = 0.8 * (end - begin);
+  const double rim = 1.2 * (end - std::max(begin, 0.0));
   return intersect(subtract(grow(inner, end), grow(inner, begin), 0.1 * (end - begin)), outline,
                    rim);
 }

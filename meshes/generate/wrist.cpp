@@ -102,9 +102,6 @@ std::vector<Solid> make_bones(const Millimetres& mm, const WristSize& size) {
            mm.at(-12.6, 5, -31)),
       bone("trapezium", make_trapezium(mm), mm.at(-21.5, 0, -34)),
       bone("metacarpals", make_metacarpals(mm), mm.at(-13, 5, -56)),
-      bone("first_metacarpal",
-           make_rod(mm, {{-25, -5, -45, 6}, {-28, -9, -58, 4.6}, {-33, -14, -80, 4.6}}),
-           mm.at(-28, -9, -58)),
       {"scapholunate_ligament",
        intersect(unite(make_scaphoid(mm), make_lunate(mm), mm.length(7)),
                  make_ellipsoid(mm.at(-6.6, 4, -8.4), mm.at(3.4, 8, 5)), 0.6e-3),
@@ -200,24 +197,23 @@ std::vector<Solid> make_flexors(const Millimetres& mm) {
               "flexor_carpi_ulnaris", mm,
               {{18, -10, 46, 2.6}, {18.4, -10.6, 25, 2.4}, {18, -9.6, 0, 2.2}, {17.2, -8, -13, 2}}),
           make_strap_part("palmaris_longus", mm, kPalm,
-                          {{-4, -17.4, 46, 1.6, 0.8},
-                           {-4.6, -18.2, 25, 1.6, 0.8},
-                           {-5, -17.8, 0, 1.9, 0.7},
-                           {-5, -17.5, -16, 2.6, 0.6},
-                           {-5, -17.2, -34, 4, 0.5},
-                           {-5, -17, -55, 5, 0.5}})};
+                          {{-4, -18.2, 46, 1.6, 0.8},
+                           {-4.6, -18.6, 25, 1.6, 0.8},
+                           {-5, -18.4, 0, 1.9, 0.7},
+                           {-5, -18.5, -16, 2.6, 0.6},
+                           {-5, -18.8, -34, 3.4, 0.5},
+                           {-5, -19, -55, 4, 0.5}})};
 }
 
 // From pisiform and hook to scaphoid and trapezium, 1.3 mm thick (assumed); the tunnel under it is
 // 10.4 mm deep [Mani2011].
 std::vector<Solid> make_tunnel(const Millimetres& mm) {
-  const auto across = [&](double x, double y, double z, double wide) {
-    return RibbonStation{mm.at(x, y, z), kPalm, mm.length(wide), mm.length(0.65)};
+  const auto across = [&](double x, double y, double wide) {
+    return RibbonStation{mm.at(x, y, -23.5), kPalm, mm.length(wide), mm.length(0.65)};
   };
   return {{"flexor_retinaculum",
-           make_ribbon({across(17, -10.6, -20, 8), across(9.5, -14.2, -23, 10.5),
-                        across(0, -15.6, -23.5, 11.5), across(-9, -14.9, -23.5, 11.5),
-                        across(-15.5, -12.6, -25, 10), across(-19.4, -8.2, -27, 7)},
+           make_ribbon({across(17, -10.6, 9), across(9.5, -14.2, 10.5), across(0, -15.6, 11.5),
+                        across(-9, -14.9, 11.5), across(-15.5, -12.2, 10), across(-19.4, -8.6, 8)},
                        3),
            mm.at(0, -15.6, -23.5), mm.length(80), 1.8e-3, 0.1e-3},
           make_strap_part("carpal_tunnel", mm, kPalm,
@@ -229,8 +225,8 @@ std::vector<Solid> make_tunnel(const Millimetres& mm) {
                            {-2.6, -9.2, -44, 8.5, 4.4}})};
 }
 
-// The first compartment over the styloid, its retinaculum 0.94 mm thick as in de Quervain's disease
-// [Lee2016].
+// Two tendons in one sheath over the styloid under 15 mm of retinaculum [FirstCompartment2024],
+// which is as thick as in de Quervain's disease, 0.94 mm [DeQuervainUS].
 std::vector<Solid> make_first_compartment(const Millimetres& mm) {
   return {make_strap_part("abductor_pollicis_longus", mm, Vec3(-1, -0.15, 0),
                           {{-14, 9, 46, 2.6, 1.8},
@@ -255,10 +251,10 @@ std::vector<Solid> make_first_compartment(const Millimetres& mm) {
                            {-26.8, -0.8, -9, 4.2, 1.8},
                            {-27.2, -2, -17, 3.2, 1.2}}),
           make_strap_part("first_compartment_retinaculum", mm, kThumb,
-                          {{-26, 3.4, 13, 4.8, 1.3},
-                           {-27, 2, 6, 5.2, 1.7},
-                           {-27.2, 0.4, -1, 5.2, 1.7},
-                           {-26.6, -0.8, -7, 4.6, 1.3}})};
+                          {{-26.6, 2.9, 9, 4.8, 1.4},
+                           {-27.1, 2, 5, 5.2, 1.75},
+                           {-27.2, 0.8, 0, 5.2, 1.75},
+                           {-26.9, 0, -4, 4.8, 1.4}})};
 }
 
 std::vector<Solid> make_extensors(const Millimetres& mm) {
@@ -285,17 +281,17 @@ std::vector<Solid> make_extensors(const Millimetres& mm) {
                          {-21, 12.4, -27, 1.3},
                          {-29, 2, -50, 1.3}}),
           make_strap_part("extensor_digitorum", mm, kBack,
-                          {{1, 10.4, 46, 5, 2},
-                           {0.6, 12.4, 25, 5, 1.8},
-                           {1, 13.2, 5, 4.6, 1.5},
-                           {1.2, 13.9, -16, 5.4, 1.3},
-                           {1.4, 13.9, -40, 9, 1.1},
-                           {1.6, 13.6, -56, 13, 0.9}}),
+                          {{3, 10.4, 46, 4.4, 2},
+                           {3, 12.4, 25, 4.4, 1.8},
+                           {3.6, 13.2, 5, 4.2, 1.5},
+                           {4, 13.9, -16, 4.6, 1.3},
+                           {4.6, 13.9, -40, 7, 1.1},
+                           {5, 13.6, -56, 9, 0.9}}),
           make_rod_part("extensor_digiti_minimi", mm,
-                        {{9, 8.6, 46, 1.2},
-                         {9, 11, 25, 1.2},
-                         {9, 12.6, 5, 1.2},
-                         {11, 13, -18, 1.2},
+                        {{10, 8.6, 46, 1.2},
+                         {10.6, 10.8, 25, 1.2},
+                         {11, 12.2, 5, 1.2},
+                         {12.4, 12.6, -18, 1.2},
                          {17, 10.5, -50, 1.2}}),
           make_rod_part("extensor_carpi_ulnaris", mm,
                         {{17, 8, 46, 2.2},
@@ -315,35 +311,26 @@ std::vector<Solid> make_extensors(const Millimetres& mm) {
 std::vector<Solid> make_recess(const Millimetres& mm, const WristSize& size) {
   const Field row = unite(unite(make_scaphoid(mm), make_lunate(mm), mm.length(7)),
                           make_radius(mm, size), mm.length(4));
-  const Field outline = make_ellipsoid(mm.at(-6, 10, -6.5), mm.at(10.5, 7, 7.5));
-  const Vec3 middle = mm.at(-6.5, 6, -7);
-  return {{"radiocarpal_recess", make_layer(row, 0.2e-3, 0.2e-3 + size.recess, outline),
-           find_outside(row, middle, kBack, 0.2e-3 + 0.5 * size.recess), mm.length(50), 1.4e-3,
-           0.07e-3},
-          {"dorsal_capsule",
-           make_layer(row, 0.4 * size.recess, size.recess + 1e-3, grow(outline, 1.8e-3)),
-           find_outside(row, middle, kBack, size.recess + 0.6e-3), mm.length(60), 1.4e-3, 0.07e-3}};
+  const Field outline = make_ellipsoid(mm.at(-4.5, 10, -6.5), mm.at(10.5, 7, 7.5));
+  const Vec3 middle = mm.at(-3.2, 6, -7);
+  return {{"radiocarpal_recess", make_layer(row, -0.8e-3, size.recess, outline),
+           find_outside(row, middle, kBack, 0.5 * size.recess), mm.length(50), 1.4e-3, 0.07e-3},
+          {"dorsal_capsule", make_layer(row, -0.8e-3, size.recess + 1e-3, grow(outline, 1.8e-3)),
+           find_outside(row, middle, kBack, size.recess + 0.5e-3), mm.length(60), 1.4e-3, 0.07e-3}};
 }
 
 std::vector<Solid> make_muscles(const Millimetres& mm) {
-  return {
-      make_strap_part("pronator_quadratus", mm, kPalm,
-                      {{-8, -8.4, 46, 12, 2.4},
-                       {-3, -7.6, 36, 15, 3},
-                       {-2, -8.4, 18, 15, 2.6},
-                       {-2, -8.6, 8, 10, 1}}),
-      make_strap_part("finger_flexors", mm, kPalm,
-                      {{2, -13, 95, 15, 7},
-                       {1, -12.6, 46, 12, 5.4},
-                       {0, -12.4, 40, 9, 3},
-                       {0, -12, 26, 5, 0.8}}),
-      make_rod_part(
-          "thenar_muscles", mm,
-          {{-18, -12.4, -29, 3}, {-20, -14, -40, 8}, {-24, -17, -58, 9.5}, {-28, -18, -75, 8}}),
-      make_rod_part("hypothenar_muscles", mm,
-                    {{16.5, -9.5, -23, 3}, {17, -9.5, -34, 7}, {18, -8, -56, 9}, {18, -7, -75, 8}}),
-      make_strap_part("finger_extensors", mm, kBack,
-                      {{0, 9, 95, 16, 6}, {-2, 9.5, 46, 14, 4}, {-2, 10, 42, 9, 1.4}})};
+  return {make_strap_part("pronator_quadratus", mm, kPalm,
+                          {{-3, -8.2, 46, 12, 2.4},
+                           {-3, -8, 34, 14, 2.8},
+                           {-3, -8.2, 18, 13, 2.4},
+                           {-3, -8.6, 8, 9, 1}}),
+          make_rod_part(
+              "thenar_muscles", mm,
+              {{-18, -12.4, -29, 3}, {-20, -14, -40, 8}, {-24, -17, -58, 9.5}, {-28, -18, -75, 8}}),
+          make_rod_part(
+              "hypothenar_muscles", mm,
+              {{16.5, -9.5, -23, 3}, {17, -9.5, -34, 7}, {18, -8, -56, 9}, {18, -7, -75, 8}})};
 }
 
 Field make_skin(const Millimetres& mm) {

@@ -10,7 +10,7 @@ namespace artus {
 struct WristSize {
   double scale = 1;           ///< 1: radius and ulna 50 mm wide together
   double cartilage = 0.9e-3;  ///< on radius, scaphoid and lunate
-  double recess = 2.2e-3;     ///< dorsal recess of the radiocarpal joint
+  double recess = 1.7e-3;     ///< dorsal recess of the radiocarpal joint
 };
 
 /// The solids of a right wrist, straight, the palm forward: `body` (outer skin) first, then the
