@@ -203,20 +203,16 @@ std::vector<Solid> make_achilles(const Millimetres& mm, const AnkleSize& size) {
 
 // Over the neck of the talus from the tibia's lip on.
 std::vector<Solid> make_front_of_joint(const Millimetres& mm, const AnkleSize& size) {
-  const Field talus = grow(make_talus(mm), size.cartilage);
-  const Field bones = unite(make_tibia(mm, size), talus, mm.length(1.2));
-  const Field smooth = unite(make_tibia(mm, size), talus, mm.length(7));
-  const Field outline = make_ellipsoid(mm.at(2, -18.5, 12), mm.at(15.5, 10, 13));
-  const double deep = -0.8e-3;  // into bone and cartilage, which take their share
-  const Vec3 from = mm.at(3, -8, 14);
-  // It fills the corner between tibia and talus; the capsule passes over it smoothly.
-  const Field recess = intersect(subtract(grow(smooth, size.recess), grow(bones, deep), 0.2e-3),
-                                 outline, 1.2 * size.recess);
+  // A lens along the front from the tibia's lip to the neck; bone takes its share.
+  const Vec3 lens = mm.at(2, -18.6, 12.6);
+  Eigen::Matrix3d axes;
+  axes << kMedial, Vec3(0, 0.363, 0.932), Vec3(0, -0.932, 0.363);
+  const Field recess =
+      make_ellipsoid(lens, Vec3(mm.length(14), mm.length(11.5), size.recess), axes);
   return {
-      {"anterior_recess", recess, find_outside(smooth, from, kFront, 0.5 * size.recess),
-       mm.length(60), 1.4e-3, 0.06e-3},
-      {"anterior_capsule", make_layer(smooth, deep, size.recess + 1e-3, grow(outline, 2e-3)),
-       find_outside(smooth, from, kFront, size.recess + 0.5e-3), mm.length(60), 1.4e-3, 0.06e-3},
+      {"anterior_recess", recess, lens - Vec3(0, mm.length(2), 0), mm.length(60), 1.4e-3, 0.07e-3},
+      {"anterior_capsule", grow(recess, 1e-3), lens - Vec3(0, mm.length(2), 0), mm.length(60),
+       1.5e-3, 0.08e-3},
       make_strap_part(
           "anterior_talofibular_ligament", mm, Vec3(-0.8, -0.6, 0.1),
           {{-24, -1, -1, 3.4, 1.1}, {-19, -7.4, -0.5, 3.8, 1.1}, {-12.5, -13, 0.5, 3.2, 1}}),

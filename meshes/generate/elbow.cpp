@@ -144,25 +144,22 @@ std::vector<Solid> make_bursae(const Millimetres& mm, const ElbowSize& size) {
   const Field back_and_down = make_half_space(mm.at(0, 12, -14), Vec3(0, -0.72, 0.69));
   const Field olecranon =
       make_layer(ulna, begin, begin + size.bursa, intersect(over_olecranon, back_and_down, 1e-3));
-  const Field humerus = make_humerus_bone(mm);
-  const Field fossa = make_ellipsoid(mm.at(3.5, 10, 18), mm.at(15, 10.5, 13));
-  const double deep = -0.8e-3;  // into bone, which takes its share
-  const Vec3 middle = mm.at(3.5, 5, 17);
-  return {
-      {"olecranon_bursa", olecranon,
-       find_outside(ulna, mm.at(5, 14, -17), Vec3(0, 0.6, -0.8), begin + 0.5 * size.bursa),
-       mm.length(60), 1.2e-3, 0.05e-3},
-      {"posterior_recess", make_layer(humerus, deep, size.recess, fossa),
-       find_outside(humerus, middle, kBack, 0.5 * size.recess), mm.length(50), 1.3e-3, 0.06e-3},
-      {"posterior_capsule", make_layer(humerus, deep, size.recess + 1e-3, grow(fossa, 1.6e-3)),
-       find_outside(humerus, middle, kBack, size.recess + 0.5e-3), mm.length(60), 1.3e-3, 0.06e-3},
-      {"posterior_fat_pad", make_ellipsoid(mm.at(3.5, 16, 16.5), mm.at(13.5, 6.6, 12)),
-       mm.at(3.5, 18, 16), mm.length(60), 1.6e-3, 0.08e-3},
-      make_strap_part("radiohumeral_bursa", mm, kLateral,
-                      {{-26.3, -6, 1.5, 3, 0.3},
-                       {-26.2, -11, 1.2, 4.5, 0.45},
-                       {-26.3, -17, 0.8, 4.8, 0.45},
-                       {-26.8, -24, 0, 3.5, 0.3}})};
+  // A lens in the olecranon fossa; bone takes its share.
+  const Vec3 lens = mm.at(3.5, 8, 17.5);
+  const Field recess =
+      make_ellipsoid(lens, Vec3(mm.length(12), mm.length(1) + size.recess, mm.length(11.5)));
+  return {{"olecranon_bursa", olecranon,
+           find_outside(ulna, mm.at(5, 14, -17), Vec3(0, 0.6, -0.8), begin + 0.5 * size.bursa),
+           mm.length(60), 1.2e-3, 0.05e-3},
+          {"posterior_recess", recess, lens, mm.length(50), 1.4e-3, 0.07e-3},
+          {"posterior_capsule", grow(recess, 1e-3), lens, mm.length(60), 1.5e-3, 0.08e-3},
+          {"posterior_fat_pad", make_ellipsoid(mm.at(3.5, 16, 16.5), mm.at(13.5, 6.6, 12)),
+           mm.at(3.5, 18, 16), mm.length(60), 1.6e-3, 0.08e-3},
+          make_strap_part("radiohumeral_bursa", mm, kLateral,
+                          {{-26.3, -6, 1.5, 3, 0.3},
+                           {-26.2, -11, 1.2, 4.5, 0.45},
+                           {-26.3, -17, 0.8, 4.8, 0.45},
+                           {-26.8, -24, 0, 3.5, 0.3}})};
 }
 
 // Under the skin of the lateral side: tendon on bursa [Osgood1922] on ligament. [Ustuner2013] the
