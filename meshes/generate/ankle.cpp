@@ -181,8 +181,8 @@ std::vector<Solid> make_achilles(const Millimetres& mm, const AnkleSize& size) {
   };
   return {make_strap_part(
               "retrocalcaneal_bursa", mm, kBack,
-              {turned({0, 47.3, -15.5, 6, 0.8 * half}), turned({0, 46.8, -9, 8.5, 1.4 * half}),
-               turned({0, 46.7, -4.5, 8.5, 1.4 * half}), turned({0, 47.8, 0, 6, 0.8 * half})}),
+              {turned({0, 47.15, -15.5, 6, 0.7 * half}), turned({0, 46.65, -9, 8.5, 1.1 * half}),
+               turned({0, 46.55, -4.5, 8.5, 1.1 * half}), turned({0, 47.65, 0, 6, 0.7 * half})}),
           make_strap_part("achilles_tendon", mm, kBack,
                           {bend(StrapStation{0, 46.6, -37, 9, 0.5}),
                            bend(StrapStation{0, 48.6, -29, 10.9, 1.6}),

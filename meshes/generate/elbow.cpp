@@ -199,8 +199,8 @@ std::vector<Solid> make_back(const Millimetres& mm) {
                           {{26, 3, -3, 3, 1.2}, {23, -4, -8, 4, 1.4}, {16, -11, -14, 4, 1}})};
 }
 
-// In front of the joint, behind it and down the forearm.
-std::vector<Solid> make_muscles(const Millimetres& mm) {
+// Behind the joint and on its lateral side.
+std::vector<Solid> make_extensors(const Millimetres& mm) {
   return {make_strap_part("triceps", mm, kBack,
                           {{5, 24.4, -2, 10, 0.5},
                            {4, 23.2, 9, 17, 3.6},
@@ -234,8 +234,11 @@ std::vector<Solid> make_muscles(const Millimetres& mm) {
                          {-23, -28, 24, 9.5},
                          {-22, -45, 20, 9},
                          {-20, -75, 17, 8},
-                         {-19, -100, 15, 7}}),
-          make_strap_part("brachialis", mm, kForward,
+                         {-19, -100, 15, 7}})};
+}
+
+std::vector<Solid> make_flexors(const Millimetres& mm) {
+  return {make_strap_part("brachialis", mm, kForward,
                           {{0, -14, 100, 22, 14},
                            {0, -12, 50, 21, 12},
                            {0, -10, 28, 19, 9.5},
@@ -293,7 +296,7 @@ std::vector<Solid> make_elbow(const ElbowSize& size) {
   const Millimetres mm(24e-3 * size.scale);
   std::vector<Solid> solids{{"body", make_skin(mm), Vec3::Zero(), mm.length(420), 5e-3, 0.2e-3}};
   for (auto& parts : {make_bones(mm, size), make_lines(mm), make_bursae(mm, size),
-                      make_lateral_side(mm), make_back(mm), make_muscles(mm)})
+                      make_lateral_side(mm), make_back(mm), make_extensors(mm), make_flexors(mm)})
     append(solids, parts);
   return solids;
 }
