@@ -84,8 +84,8 @@ TEST(BundledSurfaces, EachLiesOnTheGeneratorsSolid) {
 TEST(BundledSurfaces, GeneratorGivesTheCommittedTriangles) {
   for (const Bundled& b : read_bundled()) {
     const auto& name = b.solid.name;
-    const std::set<std::string> some{"joint_fluid",        "bone",     "patella",
-                                     "anterior_recess",    "pisiform", "annular_ligament",
+    const std::set<std::string> some{"joint_fluid",         "bone",     "patella",
+                                     "anterior_recess",     "pisiform", "annular_ligament",
                                      "retrocalcaneal_bursa"};
     if (some.count(name) == 0) continue;
     const auto again = compute_surface(b.solid);

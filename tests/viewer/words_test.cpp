@@ -166,8 +166,8 @@ TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
   const std::set<std::string> alike{"fibula",    "tibia",     "patella", "scapula",
                                     "sartorius", "cartilage", "tendon",  "muscle",
                                     "radius",    "ulna",      "talus"};
-  for (const char* joint : {"simple-shoulder", "shoulder", "real-shoulder", "elbow", "wrist", "hip", "knee",
-                            "ankle"}) {
+  for (const char* joint :
+       {"simple-shoulder", "shoulder", "real-shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
     const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml");
     EXPECT_GT(names.size(), 5U) << joint;
     for (const std::string& name : names) {
