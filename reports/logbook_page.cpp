@@ -17,7 +17,7 @@ struct NamedProcedure {
   const char* name;
   const char* words;
 };
-constexpr std::array<NamedProcedure, 10> kProcedures{{
+constexpr std::array<NamedProcedure, 16> kProcedures{{
     {"", msgid("Basics on a gel block")},
     {"sasd_lateral", msgid("Subacromial bursa from lateral")},
     {"sasd_anterior", msgid("Subacromial bursa from in front")},
@@ -28,6 +28,12 @@ constexpr std::array<NamedProcedure, 10> kProcedures{{
     {"gh_distension", msgid("Distension of the shoulder joint")},
     {"ssn_notch", msgid("Suprascapular nerve at the notch")},
     {"barbotage", msgid("Barbotage of a calcific deposit")},
+    {"common_extensor", msgid("Common extensor tendon at the elbow")},
+    {"elbow_posterior", msgid("Elbow joint from behind")},
+    {"carpal_tunnel", msgid("Carpal tunnel")},
+    {"first_compartment", msgid("First extensor compartment")},
+    {"tibiotalar", msgid("Ankle joint from in front")},
+    {"retrocalcaneal", msgid("Retrocalcaneal bursa")},
 }};
 
 constexpr std::size_t kDay = 10;  // characters of a date

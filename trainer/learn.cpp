@@ -59,7 +59,7 @@ constexpr std::array<Told, 8> kWhy{{
 }};
 
 /// How the patient sits or lies, by the procedure.
-constexpr std::array<Told, 10> kPostures{{
+constexpr std::array<Told, 16> kPostures{{
     {"", msgid("The block lies before you, the screen behind it.")},
     {"sasd_lateral", msgid("The patient sits, the arm hanging. Stand beside the shoulder.")},
     {"sasd_anterior",
@@ -79,6 +79,22 @@ constexpr std::array<Told, 10> kPostures{{
     {"barbotage",
      msgid("The patient lies half on the other side, the hand on the hip. Stand beside the "
            "shoulder.")},
+    {"common_extensor",
+     msgid("The patient sits, the elbow bent on the table, the thumb up. Sit at the side of the "
+           "elbow.")},
+    {"elbow_posterior",
+     msgid("The patient lies on the back, the elbow bent across the chest. Stand behind the "
+           "elbow.")},
+    {"carpal_tunnel",
+     msgid("The patient sits, the palm up on the table, the wrist a little bent back. Sit at the "
+           "side of the little finger.")},
+    {"first_compartment",
+     msgid("The patient sits, the hand on its edge on the table, the thumb up. Sit before the "
+           "hand.")},
+    {"tibiotalar",
+     msgid("The patient lies on the back, the knee bent, the sole flat. Stand at the foot.")},
+    {"retrocalcaneal",
+     msgid("The patient lies face down, the foot over the edge. Sit behind the heel.")},
 }};
 
 template <std::size_t N>

@@ -11,12 +11,15 @@
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/meshes/generate/ankle.h"
+#include "artus/detail/meshes/generate/elbow.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/leg_measures.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
+#include "artus/detail/meshes/generate/wrist.h"
 
 namespace {
 
@@ -54,10 +57,26 @@ std::vector<artus::Solid> solids_of(const Options& options) {
     size.head_radius = radius;
     return artus::make_hip(size);
   }
+  const double scale = options.head_radius_mm / kUsualHead;
   if (options.joint == "knee") {
     artus::KneeSize size;
-    size.scale = options.head_radius_mm / kUsualHead;
+    size.scale = scale;
     return artus::make_knee(size);
+  }
+  if (options.joint == "elbow") {
+    artus::ElbowSize size;
+    size.scale = scale;
+    return artus::make_elbow(size);
+  }
+  if (options.joint == "wrist") {
+    artus::WristSize size;
+    size.scale = scale;
+    return artus::make_wrist(size);
+  }
+  if (options.joint == "ankle") {
+    artus::AnkleSize size;
+    size.scale = scale;
+    return artus::make_ankle(size);
   }
   artus::SimpleShoulderSize size;
   size.head_radius = radius;
@@ -113,15 +132,17 @@ int generate(const Options& options) {
 int run(int argc, char** argv) {
   CLI::App app("Writes the surfaces of a bundled joint as PLY files in millimetres.");
   Options options;
-  app.add_option("joint", options.joint, "simple-shoulder, shoulder, knee or hip")
+  app.add_option("joint", options.joint,
+                 "simple-shoulder, shoulder, elbow, wrist, hip, knee or ankle")
       ->required()
-      ->check(CLI::IsMember({"simple-shoulder", "shoulder", "knee", "hip"}));
+      ->check(
+          CLI::IsMember({"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}));
   auto* out = app.add_option("--out", options.out, "folder for the PLY files, made when missing");
   auto* measures = app.add_option("--measures", options.measures,
                                   "in place of it: lengths of the joint beside published ones");
   out->excludes(measures);
   app.add_option("--head-radius", options.head_radius_mm,
-                 "radius of the humeral or femoral head, mm; a knee's size follows")
+                 "radius of the humeral or femoral head, mm; the size of other joints follows")
       ->check(CLI::Range(10.0, 40.0))
       ->capture_default_str();
   app.add_option("--only", options.only, "names of the surfaces to write; default all");

@@ -178,7 +178,7 @@ TEST_F(Tool, FindsBundledJointsAndScenariosFromAnyFolder) {
   EXPECT_EQ(needle.exit_code, 0) << needle.err;
   const auto scenario = from_root({"scenario", "check", "sasd-lateral-1", "--no-play"});
   EXPECT_EQ(scenario.exit_code, 0) << scenario.err;
-  const auto unknown = from_root({"needle", "-j", "elbow"});
+  const auto unknown = from_root({"needle", "-j", "toe"});
   EXPECT_EQ(unknown.exit_code, 1);
 }
 
@@ -187,10 +187,10 @@ TEST_F(Tool, FindsBundledJointsBesideAnInstalledProgram) {
   fs::create_directories(in("prefix/bin"));
   fs::create_directories(in("prefix/share/artus/meshes"));
   fs::copy_file(ARTUS_TOOL, in("prefix/bin/artus"));
-  fs::copy(test::source_dir() / "meshes/knee", in("prefix/share/artus/meshes/elbow"),
+  fs::copy(test::source_dir() / "meshes/knee", in("prefix/share/artus/meshes/toe"),
            fs::copy_options::recursive);
   const auto check =
-      test::run_process({"env", "-C", "/", in("prefix/bin/artus"), "check", "elbow", "--json"});
+      test::run_process({"env", "-C", "/", in("prefix/bin/artus"), "check", "toe", "--json"});
   EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 

@@ -10,6 +10,8 @@
 
 #include "artus/anatomy/joint_file.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/meshes/generate/ankle.h"
+#include "artus/detail/meshes/generate/elbow.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/leg_measures.h"
@@ -18,6 +20,7 @@
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
+#include "artus/detail/meshes/generate/wrist.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -94,6 +97,113 @@ TEST(BundledJoints, HipPlacesProbeAndPassesOnItsLayers) {
   expect_probe_on_skin_facing_inward(joint, find_solid(solids, "body"));
   expect_passes(joint, find_solid(solids, "body"), find_solid(solids, "anterior_recess"),
                 find_solid(solids, "femur"));
+}
+
+TEST(BundledJoints, ElbowWristAndAnklePlaceProbeAndPassesOnTheirLayers) {
+  struct Place {
+    const char* joint;
+    std::vector<Solid> solids;
+    const char* target;
+    const char* bone;
+  };
+  for (const Place& place : {Place{"elbow", make_elbow({}), "posterior_recess", "humerus"},
+                             Place{"wrist", make_wrist({}), "carpal_tunnel", "pisiform"},
+                             Place{"ankle", make_ankle({}), "anterior_recess", "talus"}}) {
+    SCOPED_TRACE(place.joint);
+    const JointFile joint = read_bundled_joint(place.joint);
+    const Field skin = find_solid(place.solids, "body");
+    const Vec3 face = joint.X_JP_default->translation();
+    EXPECT_NEAR(skin(face), 0, 3e-3) << "a hollow under the face is filled with gel";
+    expect_passes(joint, skin, find_solid(place.solids, place.target),
+                  find_solid(place.solids, place.bone));
+  }
+}
+
+// What lies before a structure in the joint's list and in it too is not the structure's.
+bool is_in(const std::vector<Solid>& solids, const std::string& name, const Vec3& p) {
+  for (const Solid& solid : solids) {
+    if (solid.name == "body" || solid.field(p) >= 0) continue;
+    return solid.name == name;
+  }
+  return false;
+}
+
+TEST(BundledJoints, OtherPlacesOfElbowWristAndAnkleHaveTheirTargetsInThePlane) {
+  struct Place {
+    const char* joint;
+    std::vector<Solid> solids;
+    const char* target;
+  };
+  const std::vector<Solid> elbow = make_elbow({});
+  const std::vector<Solid> wrist = make_wrist({});
+  for (const Place& place :
+       {Place{"elbow+lateral_epicondyle", elbow, "radiohumeral_bursa"},
+        Place{"elbow+olecranon_bursa", elbow, "olecranon_bursa"},
+        Place{"wrist+first_compartment", wrist, "first_compartment_sheath"},
+        Place{"wrist+radiocarpal", wrist, "radiocarpal_recess"},
+        Place{"ankle+retrocalcaneal", make_ankle({}), "retrocalcaneal_bursa"}}) {
+    SCOPED_TRACE(place.joint);
+    const JointFile joint = read_bundled_joint(place.joint);
+    ASSERT_EQ(joint.injections.size(), 1U);
+    const PlannedInjection& pass = joint.injections.front();
+    EXPECT_TRUE(is_in(place.solids, place.target, pass.target));
+    EXPECT_NEAR(find_solid(place.solids, "body")(pass.entry), 0, 0.8e-3);
+    EXPECT_NEAR((joint.X_JP_default->inverse() * pass.target).y(), 0, 0.5e-3);
+    EXPECT_NEAR((joint.X_JP_default->inverse() * pass.entry).y(), 0, 0.5e-3);
+  }
+}
+
+// Along a line, how much of it lies in a structure, mm.
+double thickness_of(const std::vector<Solid>& solids, const std::string& name, const Vec3& from,
+                    const Vec3& direction) {
+  constexpr double kStep = 0.02e-3;
+  double sum = 0;
+  for (double t = 0; t < 25e-3; t += kStep)
+    sum += is_in(solids, name, from + t * direction) ? 1e3 * kStep : 0;
+  return sum;
+}
+
+TEST(BundledJoints, ElbowWristAndAnkleHaveTheLayersOfAdults) {
+  const std::vector<Solid> elbow = make_elbow({});
+  const Vec3 inward(1, 0, 0);
+  const auto lateral = [&](double y, double z) {
+    return thickness_of(elbow, "common_extensor_tendon", 1e-3 * Vec3(-36, y, z), inward);
+  };
+  EXPECT_NEAR(lateral(-2.5, 3.1), 4.6, 0.6);  // [Ustuner2013]
+  EXPECT_NEAR(lateral(-12, 1.8), 3.55, 0.5);  // [Ustuner2013]
+  EXPECT_NEAR(lateral(-20, 0.6), 3.17, 0.5);  // [Ustuner2013]
+  EXPECT_LE(thickness_of(elbow, "olecranon_bursa", 1e-3 * Vec3(5, 4, -36), Vec3(0, 0, 1)), 1);
+  const std::vector<Solid> wrist = make_wrist({});
+  const Field nerve = find_solid(wrist, "median_nerve");
+  int inside = 0;  // cells of 0.01 mm2 of the section at the tunnel's entrance
+  for (double x = -12; x < 0; x += 0.1)
+    for (double y = -17; y < -10; y += 0.1) inside += nerve(1e-3 * Vec3(x, y, -16)) < 0 ? 1 : 0;
+  EXPECT_NEAR(0.01 * inside, 7.4, 2.2);  // [Mani2011] 2 SD
+  const std::vector<Solid> ankle = make_ankle({});
+  EXPECT_NEAR(thickness_of(ankle, "achilles_tendon", 1e-3 * Vec3(0, 54, 30), Vec3(0, -1, 0)), 4.63,
+              1.5);  // [Mohammed2023] 2 SD
+  const double bursa = thickness_of(ankle, "retrocalcaneal_bursa", 1e-3 * Vec3(0, 56, 10.6),
+                                    Vec3(0, -0.926, -0.376));
+  EXPECT_GT(bursa, 0.5);
+  EXPECT_LE(bursa, 1);
+}
+
+TEST(BundledJoints, ElbowWristAndAnkleLandmarksLieOnTheirBones) {
+  const auto expect_on = [](const char* joint, const std::vector<Solid>& solids,
+                            std::initializer_list<std::pair<const char*, const char*>> pairs) {
+    for (const auto& [name, bone] : pairs)
+      EXPECT_NEAR(find_solid(solids, bone)(landmark(read_bundled_joint(joint), name)), 0, 1.2e-3)
+          << name;
+  };
+  expect_on(
+      "elbow", make_elbow({}),
+      {{"lateral_epicondyle", "humerus"}, {"medial_epicondyle", "humerus"}, {"olecranon", "ulna"}});
+  expect_on(
+      "wrist", make_wrist({}),
+      {{"radial_styloid", "radius"}, {"lister_tubercle", "radius"}, {"pisiform", "pisiform"}});
+  expect_on(
+      "ankle", make_ankle({}),
+      {{"medial_malleolus", "tibia"}, {"lateral_malleolus", "fibula"}, {"heel", "calcaneus"}});
 }
 
 TEST(BundledJoints, KneeAndHipLandmarksLieOnTheirBones) {
@@ -301,7 +411,8 @@ TEST(BundledJoints, HipsRecessLiesOnTheNeckUnderTheCapsuleUnderTheMuscle) {
 }
 
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
-  for (const char* name : {"simple-shoulder", "shoulder", "knee", "hip"}) {
+  for (const char* name :
+       {"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
     const JointFile joint = read_bundled_joint(name);
     std::vector<Structure> all = joint.structures;
     for (const JointVariant& variant : joint.variants) {

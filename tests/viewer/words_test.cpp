@@ -164,8 +164,10 @@ std::vector<std::string> names_in(const std::filesystem::path& joint) {
 
 TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
   const std::set<std::string> alike{"fibula",    "tibia",     "patella", "scapula",
-                                    "sartorius", "cartilage", "tendon",  "muscle"};
-  for (const char* joint : {"simple-shoulder", "shoulder", "real-shoulder", "knee", "hip"}) {
+                                    "sartorius", "cartilage", "tendon",  "muscle",
+                                    "radius",    "ulna",      "talus"};
+  for (const char* joint :
+       {"simple-shoulder", "shoulder", "real-shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
     const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml");
     EXPECT_GT(names.size(), 5U) << joint;
     for (const std::string& name : names) {
