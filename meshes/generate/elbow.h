@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "artus/detail/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/solids/surfacing.h"
 
 namespace artus {
 

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "artus/detail/meshes/generate/hip.h"
-#include "artus/detail/meshes/generate/millimetres.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "artus/detail/core/check.h"
-#include "artus/detail/meshes/generate/millimetres.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

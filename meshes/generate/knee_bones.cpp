@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "artus/detail/meshes/generate/knee.h"
-#include "artus/detail/meshes/generate/millimetres.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/meshes/generate/millimetres.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
 
 namespace artus {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "artus/detail/core/check.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/meshes/generate/millimetres.h"
-#include "artus/detail/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/surfacing.h"
 
 namespace artus {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/solids/surfacing.h"
 
 namespace artus {
 

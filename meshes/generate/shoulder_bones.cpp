@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "artus/detail/meshes/generate/millimetres.h"
 #include "artus/detail/meshes/generate/shoulder.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

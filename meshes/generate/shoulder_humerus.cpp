@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/meshes/generate/millimetres.h"
 #include "artus/detail/meshes/generate/scapular_frame.h"
 #include "artus/detail/meshes/generate/shoulder.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/millimetres.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/meshes/generate/limb.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 
 namespace artus {
 namespace {

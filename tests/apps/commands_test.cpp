@@ -134,7 +134,7 @@ TEST_F(Commands, WhatThereIsNotIsToldByName) {
   };
   EXPECT_THAT(told({"imgae", "-j", "shoulder"}), HasSubstr("no command 'imgae'"));
   EXPECT_THAT(told({"imgae"}), HasSubstr("'image'"));
-  EXPECT_THAT(told({"needle", "-j", "elbow"}), HasSubstr("elbow: there is no such joint"));
+  EXPECT_THAT(told({"needle", "-j", "jaw"}), HasSubstr("jaw: there is no such joint"));
   EXPECT_THAT(told({"serve", "-j", test::kSimple, "--rigid", "--input", "banana"}),
               HasSubstr("'banana' is neither shared-memory"));
   EXPECT_THAT(told({"replay", in("none.rec")}), HasSubstr("name the joint, or the scenario"));

@@ -68,7 +68,8 @@ set(may_viewer/pages ${may_viewer} viewer)
 set(viewer viewer viewer/words viewer/input viewer/joint3d viewer/panels viewer/pages)
 set(may_trainer ${may_evidence} exchange exchange/igtl reports ${viewer})
 set(may_python ${may_reports} anatomy/compile/mesh)
-set(may_meshes/generate core anatomy/surfaces)
+set(may_meshes/generate/solids core anatomy/surfaces)
+set(may_meshes/generate ${may_meshes/generate/solids} meshes/generate/solids)
 # Bridges include the C header of the shared memory alone.
 set(may_devices/bridges "")
 set(may_devices/kit core anatomy/surfaces exchange/igtl)
@@ -80,7 +81,7 @@ set(may_apps/validate ${may_apps} ${validation} evidence/validation)
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import/volumes anatomy/import/cells anatomy/import anatomy/import/atlas anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
-  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)
+  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate/solids meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"

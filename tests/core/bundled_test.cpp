@@ -19,7 +19,7 @@ class Bundled : public test::TemporaryFolder {
   void SetUp() override {
     test::TemporaryFolder::SetUp();
     data_ = folder_;
-    fs::create_directories(data_ / "meshes" / "elbow");
+    fs::create_directories(data_ / "meshes" / "jaw");
     unsetenv("ARTUS_DATA");  // NOLINT(concurrency-mt-unsafe): one thread
   }
   void TearDown() override {
@@ -46,9 +46,9 @@ TEST_F(Bundled, IsTakenFromTheFolderThatTheEnvironmentNamesFirst) {
 }
 
 TEST_F(Bundled, IsTakenFromTheCurrentFolderLast) {
-  EXPECT_TRUE(find_bundled("meshes/elbow").empty());
+  EXPECT_TRUE(find_bundled("meshes/jaw").empty());
   fs::current_path(data_);
-  EXPECT_EQ(find_bundled("meshes/elbow"), fs::path("meshes/elbow"));
+  EXPECT_EQ(find_bundled("meshes/jaw"), fs::path("meshes/jaw"));
   fs::create_directories("meshes/simple-shoulder");
   EXPECT_TRUE(find_bundled("meshes/simple-shoulder").is_absolute());
 }

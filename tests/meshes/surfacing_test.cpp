@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/solids/surfacing.h"
 
 #include <numbers>
 
@@ -7,7 +7,7 @@
 
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
-#include "artus/detail/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/solids/sweep.h"
 #include "tests/meshes/topology.h"
 
 namespace artus {

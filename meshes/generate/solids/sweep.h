@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "artus/detail/meshes/generate/field.h"
+#include "artus/detail/meshes/generate/solids/field.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/solids/surfacing.h"
 
 #include <cstddef>
 #include <cstdint>

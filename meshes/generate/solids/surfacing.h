@@ -5,7 +5,7 @@
 
 #include "artus/core/result.h"
 #include "artus/detail/anatomy/surfaces/surface_mesh.h"
-#include "artus/detail/meshes/generate/field.h"
+#include "artus/detail/meshes/generate/solids/field.h"
 
 namespace artus {
 
