@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(Bundled, FullSpace,
                                            Full{"shoulder", "subacromial_bursa", {0.1, 5, 20}},
                                            Full{"shoulder", "joint_fluid", {0.1, 3}},
                                            Full{"knee", "suprapatellar_recess", {0.1, 5, 20}},
-                                           Full{"hip", "anterior_recess", {0.1, 2, 5}}),
+                                           Full{"hip", "anterior_recess", {0.1, 2, 4}}),
                          [](const auto& full) { return std::string(full.param.region); });
 
 INSTANTIATE_TEST_SUITE_P(Bundled, OpenedBody,

@@ -157,8 +157,9 @@ TEST(ScenarioVerdicts, TheMarksOfEveryBundledTaskJudgeAsWrittenDown) {
       // little.
       const bool astray = known.way == Way::off && scenario->syringe.volume > 0.5e-6;
       const bool little = known.way == Way::off && scenario->syringe.volume > 0 && !astray;
-      if (!little || first != "misplaced")
+      if (!little || first != "misplaced") {
         EXPECT_EQ(first, astray ? "misplaced" : known.first) << what;
+      }
       if (known.way == Way::perfect) passed = judged.score;
       EXPECT_EQ(passed, 100) << what;
       if (fails) {
