@@ -166,7 +166,7 @@ Result<void> register_in_window(RegisterOptions& options, const TrackerCalibrati
 }
 
 Result<void> run_register(RegisterOptions& options) {
-  const bool in_window = !options.input.empty() || !options.igtl.listen.empty();
+  const bool in_window = !options.input.empty();
   if (options.pairs.empty() && options.scenario.empty() && options.insertion.empty() && !in_window)
     return fail(ErrorCode::malformed,
                 "say how: --input (a page leads you), --pairs, --scenario or --insertion",
