@@ -293,7 +293,7 @@ Field make_skin(const Millimetres& mm) {
 std::vector<Solid> make_elbow(const ElbowSize& size) {
   ARTUS_REQUIRE(size.scale > 0 && size.cartilage > 0 && size.recess > 0 && size.bursa > 0,
                 "every size must be positive");
-  const Millimetres mm(24e-3 * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   std::vector<Solid> solids{{"body", make_skin(mm), Vec3::Zero(), mm.length(420), 5e-3, 0.2e-3}};
   for (auto& parts : {make_bones(mm, size), make_lines(mm), make_bursae(mm, size),
                       make_lateral_side(mm), make_back(mm), make_extensors(mm), make_flexors(mm)})

@@ -50,7 +50,7 @@ std::vector<Solid> make_knee(const KneeSize& size) {
   ARTUS_REQUIRE(size.scale > 0 && size.cartilage > 0 && size.recess > 0 &&
                     size.patellar_tendon > 0 && size.quadriceps_tendon > 0,
                 "every size must be positive");
-  const Millimetres mm(24e-3 * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   std::vector<Solid> solids{
       {"body", make_knee_body(mm), Vec3::Zero(), mm.length(420), 6e-3, 0.2e-3}};
   for (auto parts : {make_knee_bones(size), make_knee_soft_tissue(size), make_knee_muscles(size),

@@ -9,8 +9,6 @@
 namespace artus {
 namespace {
 
-constexpr double kReferenceHead = 24e-3;  // of Millimetres, so that scale 1 writes millimetres
-
 // Both condyles are nearly balls, below and behind [BasicCircle]; the medial is longer. Before
 // them two ridges carry the patella, the lateral one higher, with the groove's floor between them.
 Field make_condyles(const Millimetres& mm) {
@@ -92,17 +90,20 @@ Field make_meniscus(const Millimetres& mm, double side, double forward) {
   return make_tube(stations);
 }
 
+// On bone, thicker by `more` where it is thickest and within `reach` of there.
+Field make_coat(const Field& bone, double thickness, double more, const Vec3& thickest,
+                double reach) {
+  const Field outer = [=](const Vec3& p) {
+    const double near = (p - thickest).squaredNorm() / (reach * reach);
+    return bone(p) - thickness - more * std::exp(-near);
+  };
+  return subtract(outer, grow(bone, -1e-3), 0.3e-3);
+}
+
 // Cartilage on the femur, thickest in the groove of the trochlea.
 Field make_femoral_cartilage(const Millimetres& mm, const KneeSize& size) {
-  const Field bone = make_condyles(mm);
-  const Vec3 groove = mm.at(-1, -25, 16);
-  const double reach = mm.length(15);
-  const double thickness = size.cartilage;
-  const Field outer = [=](const Vec3& p) {
-    const double near = (p - groove).squaredNorm() / (reach * reach);
-    return bone(p) - thickness - 1.1e-3 * std::exp(-near);
-  };
-  const Field coat = subtract(outer, grow(bone, -1e-3), 0.3e-3);
+  const Field coat =
+      make_coat(make_condyles(mm), size.cartilage, 1.1e-3, mm.at(-1, -25, 16), mm.length(15));
   const Field below = make_half_space(mm.at(0, -26, 31), Vec3(0, 0.3, 1));
   const Field medial = make_half_space(mm.at(35, 0, 0), Vec3(1, 0, 0.25));
   const Field lateral = make_half_space(mm.at(-35, 0, 0), Vec3(-1, 0, 0.25));
@@ -111,24 +112,17 @@ Field make_femoral_cartilage(const Millimetres& mm, const KneeSize& size) {
 
 // On both facets, thickest at the ridge between them.
 Field make_patellar_cartilage(const Millimetres& mm, const KneeSize& size) {
-  const Field bone = make_patella(mm);
-  const Vec3 ridge = mm.at(-1, -32.6, 20);
-  const double reach = mm.length(14);
-  const double thickness = size.cartilage;
-  const Field outer = [=](const Vec3& p) {
-    const double near = (p - ridge).squaredNorm() / (reach * reach);
-    return bone(p) - 0.6 * thickness - 2.6e-3 * std::exp(-near);
-  };
+  const Field coat = make_coat(make_patella(mm), 0.6 * size.cartilage, 2.6e-3, mm.at(-1, -32.6, 20),
+                               mm.length(14));
   const Field behind = make_half_space(mm.at(0, -40, 0), Vec3(0, -1, 0));
   const Field above_apex = make_half_space(mm.at(0, 0, 7), Vec3(0, 0, -1));
-  return intersect(subtract(outer, grow(bone, -1e-3), 0.3e-3),
-                   intersect(behind, above_apex, mm.length(3)), 1.5e-3);
+  return intersect(coat, intersect(behind, above_apex, mm.length(3)), 1.5e-3);
 }
 
 }  // namespace
 
 Field make_knee_femur(const KneeSize& size) {
-  const Millimetres mm(kReferenceHead * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   const Field epicondyles = unite(make_ball(mm.at(30, 3, 15), mm.length(6.5)),
                                   make_ball(mm.at(-30, 3, 14), mm.length(6.5)), 0);
   return unite(unite(make_condyles(mm), make_femoral_shaft(mm), mm.length(10)), epicondyles,
@@ -136,7 +130,7 @@ Field make_knee_femur(const KneeSize& size) {
 }
 
 std::vector<Solid> make_knee_bones(const KneeSize& size) {
-  const Millimetres mm(kReferenceHead * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   const Field fibula = make_tube({{mm.at(-36, 17, -38), mm.length(8.5)},
                                   {mm.at(-35.5, 17, -56), mm.length(6.5)},
                                   {mm.at(-34, 15, -120), mm.length(6)}});

@@ -9,8 +9,6 @@
 namespace artus {
 namespace {
 
-constexpr double kReferenceThigh = 24e-3;  // of Millimetres, so that scale 1 writes millimetres
-
 /// A muscle's station: x, y, z, half width, half thickness, mm.
 using MuscleStation = std::array<double, 5>;
 
@@ -117,7 +115,7 @@ std::vector<Solid> make_back_tendons(const Millimetres& mm) {
 }  // namespace
 
 std::vector<Solid> make_knee_muscles(const KneeSize& size) {
-  const Millimetres mm(kReferenceThigh * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   std::vector<Solid> solids = make_front_muscles(mm);
   for (auto parts : {make_back_muscles(mm), make_back_tendons(mm)})
     for (Solid& s : parts) solids.push_back(std::move(s));
@@ -125,7 +123,7 @@ std::vector<Solid> make_knee_muscles(const KneeSize& size) {
 }
 
 std::vector<Solid> make_knee_variants(const KneeSize& size) {
-  const Millimetres mm(kReferenceThigh * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   return {{"bakers_cyst", make_bakers_cyst(mm), mm.at(22.5, 36.5, -12), mm.length(80), 1.8e-3,
            0.06e-3}};
 }

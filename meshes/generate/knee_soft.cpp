@@ -6,7 +6,6 @@
 namespace artus {
 namespace {
 
-constexpr double kReferenceKnee = 24e-3;  // of Millimetres, so that scale 1 writes millimetres
 const Vec3 kForward(0, -1, 0);
 
 // Across (medial), upward, forward: how a cushion lies before the femur.
@@ -107,7 +106,7 @@ std::vector<Solid> make_ligaments(const Millimetres& mm) {
 }  // namespace
 
 std::vector<Solid> make_knee_soft_tissue(const KneeSize& size) {
-  const Millimetres mm(kReferenceKnee * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   const double reach = mm.length(220);
   // The first point before the femur that lies inside of what lies on it.
   const auto before = [&](const Field& field, double x, double z) {

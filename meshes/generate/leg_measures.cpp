@@ -174,7 +174,7 @@ std::vector<Measure> measure_knee_soft_tissue(const std::vector<Solid>& solids,
 
 std::vector<Measure> measure_knee(const KneeSize& size) {
   const std::vector<Solid> solids = make_knee(size);
-  const Millimetres mm(24e-3 * size.scale);
+  const Millimetres mm = Millimetres::of_scale(size.scale);
   std::vector<Measure> all = measure_knee_bones(solids, mm);
   for (Measure& m : measure_knee_soft_tissue(solids, mm)) all.push_back(std::move(m));
   return all;

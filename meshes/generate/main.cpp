@@ -45,68 +45,43 @@ bool is_wanted(const std::vector<std::string>& only, const std::string& name) {
   return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
 }
 
-std::vector<artus::Solid> solids_of(const Options& options) {
-  const double radius = options.head_radius_mm * artus::kMillimetre;
-  if (options.joint == "shoulder") {
-    artus::ShoulderSize size;
-    size.head_radius = radius;
-    return artus::make_shoulder(size);
-  }
-  if (options.joint == "hip") {
-    artus::HipSize size;
-    size.head_radius = radius;
-    return artus::make_hip(size);
-  }
-  const double scale = options.head_radius_mm / kUsualHead;
-  if (options.joint == "knee") {
-    artus::KneeSize size;
-    size.scale = scale;
-    return artus::make_knee(size);
-  }
-  if (options.joint == "elbow") {
-    artus::ElbowSize size;
-    size.scale = scale;
-    return artus::make_elbow(size);
-  }
-  if (options.joint == "wrist") {
-    artus::WristSize size;
-    size.scale = scale;
-    return artus::make_wrist(size);
-  }
-  if (options.joint == "ankle") {
-    artus::AnkleSize size;
-    size.scale = scale;
-    return artus::make_ankle(size);
-  }
-  artus::SimpleShoulderSize size;
-  size.head_radius = radius;
-  return artus::make_simple_shoulder(size);
+/// The sizes of a joint that is as large as was asked for.
+template <class Size>
+Size sized(const Options& options) {
+  Size size;
+  if constexpr (requires { size.head_radius; })
+    size.head_radius = options.head_radius_mm * artus::kMillimetre;
+  else
+    size.scale = options.head_radius_mm / kUsualHead;
+  return size;
 }
 
+std::vector<artus::Solid> solids_of(const Options& options) {
+  if (options.joint == "shoulder") return make_shoulder(sized<artus::ShoulderSize>(options));
+  if (options.joint == "hip") return make_hip(sized<artus::HipSize>(options));
+  if (options.joint == "knee") return make_knee(sized<artus::KneeSize>(options));
+  if (options.joint == "elbow") return make_elbow(sized<artus::ElbowSize>(options));
+  if (options.joint == "wrist") return make_wrist(sized<artus::WristSize>(options));
+  if (options.joint == "ankle") return make_ankle(sized<artus::AnkleSize>(options));
+  return make_simple_shoulder(sized<artus::SimpleShoulderSize>(options));
+}
+
+/// Empty: its lengths are not measured.
 std::vector<artus::Measure> measures_of(const Options& options) {
-  const double radius = options.head_radius_mm * artus::kMillimetre;
-  if (options.joint == "shoulder") {
-    artus::ShoulderSize size;
-    size.head_radius = radius;
-    return artus::measure_shoulder(size);
-  }
-  if (options.joint == "hip") {
-    artus::HipSize size;
-    size.head_radius = radius;
-    return artus::measure_hip(size);
-  }
-  artus::KneeSize size;
-  size.scale = options.head_radius_mm / kUsualHead;
-  return artus::measure_knee(size);
+  if (options.joint == "shoulder") return measure_shoulder(sized<artus::ShoulderSize>(options));
+  if (options.joint == "hip") return measure_hip(sized<artus::HipSize>(options));
+  if (options.joint == "knee") return measure_knee(sized<artus::KneeSize>(options));
+  return {};
 }
 
 int write_measures(const Options& options) {
-  if (options.joint == "simple-shoulder") {
-    std::fprintf(stderr, "artus_generate_meshes: simple-shoulder has no published lengths\n");
+  const std::vector<artus::Measure> measures = measures_of(options);
+  if (measures.empty()) {
+    std::fprintf(stderr, "artus_generate_meshes: %s has no published lengths\n",
+                 options.joint.c_str());
     return 1;
   }
-  const auto written =
-      artus::write_text(options.measures, to_markdown(options.joint, measures_of(options)));
+  const auto written = artus::write_text(options.measures, to_markdown(options.joint, measures));
   if (!written) std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
   return written ? 0 : 1;
 }
