@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "artus/detail/anatomy/body/find_region.h"
+
 namespace artus {
 namespace {
 
@@ -24,12 +26,10 @@ double depth_in_column(const LabelImage& labels, RegionId region, int x) {
 std::vector<double> depths_of(const LabelImage& labels, const CompiledJoint& joint,
                               const std::string& name) {
   std::vector<double> depths(static_cast<std::size_t>(labels.width), -1);
-  const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
-                               [&](const Region& r) { return r.name == name; });
-  if (at == joint.regions.end()) return depths;
-  const auto region = static_cast<RegionId>(at - joint.regions.begin());
+  const auto region = find_region(joint, name);
+  if (!region) return depths;
   for (int x = 0; x < labels.width; ++x)
-    depths[static_cast<std::size_t>(x)] = depth_in_column(labels, region, x);
+    depths[static_cast<std::size_t>(x)] = depth_in_column(labels, *region, x);
   return depths;
 }
 
