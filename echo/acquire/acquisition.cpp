@@ -103,6 +103,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
   Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
             body.regions, std::nullopt, frame};
+  pass.tracer.lay_on_skin(view.probe, view.X_JP);
   if (view.needle) {
     pass.needle.emplace(*view.needle, view.X_JP, view.probe, *shape_, settings_.look);
   } else {

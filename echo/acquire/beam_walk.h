@@ -38,7 +38,10 @@ struct BeamTracer::Walk {
   bool started = false;  // whether `region` is known
   bool touched = false;  // whether the beam has been inside the body
   double sample = 0;
-  double path = 0;         // m
+  double path = 0;         // m, as shown
+  double reached = 0;      // m of the body and the gel
+  double gap = 0;          // m of gel that the flat skin takes, see lay_on_skin
+  double flat_to = 0;      // m of path, where the stretched tissue ends
   double attenuation = 0;  // Np, two-way
   double slope = 0;        // Np/Hz, two-way
   double log_transmission = 0;

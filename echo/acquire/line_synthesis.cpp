@@ -29,7 +29,8 @@ constexpr double kCortexSlope = 0.65;    // power of the cosine by which it is d
 constexpr double kCortexBeam = 0.65;     // of the beam's width, which a slope has seen already
 constexpr double kSteepestCortex = 0.3;  // cosine
 constexpr std::size_t kCortexEchoes = 32;
-constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
+constexpr double kCortexMostRise = 2.5e-3;  // m from plane to plane; beyond it is another bone
+constexpr float kSheet = 1.6F;              // texture above which a sheet reflects coherently
 constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
 
 /// m, half amplitude.
@@ -123,6 +124,7 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       speckle_(std::pow(10.0, settings.speckle_db / 20)),
       has_texture_(settings.texture),
       reverberates_(settings.reverberation && settings.look == Look::raw),
+      on_screen_(settings.look != Look::raw),
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()),
       cortex_step_(static_cast<std::size_t>(std::max(
@@ -204,12 +206,11 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   interpolate_gain(nodes.data(), weight.data() + first, gain.data() + first, n_strides);
 }
 
-void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
+void LineSynthesis::add_plane(const PlaneView& view, const BeamTrace& trace, Ground& ground,
                               EchoSpan echoes) const {
   ground.knots = trace.knots;
   ground.pieces.clear();
-  const std::span<const float> speckle = shape_->speckle_weight(plane);
-  const std::span<const float> share = shape_->echo_weight(plane);
+  const std::span<const float> speckle = shape_->speckle_weight(view.plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
     add_run(trace.runs[i], ground, speckle, echoes);
   }
@@ -219,45 +220,72 @@ void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
   else
     ScatterField::add(ground.view, ground.pieces, gain, ground.room, echoes, *ground.more);
   for (std::size_t i = 0; i < trace.n_echoes; ++i) {
-    add_echo(trace.echoes[i], ground.view, share, echoes);
+    add_echo(trace.echoes[i], view, echoes);
   }
 }
 
 /// The interfaces of a plane that lies between two others: between those of both, or, where both
 /// met others, some of each.
-void LineSynthesis::add_between(int plane, const Between& planes, LineScratch& scratch,
+void LineSynthesis::add_between(const PlaneView& view, const Between& planes, BeamTrace& blended,
                                 EchoSpan echoes) const {
-  const std::span<const float> share = shape_->echo_weight(plane);
-  const auto add = [&](const BeamTrace& trace, double part) {
+  const double rise = view.cortex_rise > 0 ? planes.b.end_sample - planes.a.end_sample : 0;
+  const auto add = [&](const BeamTrace& trace, double part, double deeper) {
     for (std::size_t i = 0; i < trace.n_echoes; ++i) {
       BeamEcho echo = trace.echoes[i];
       echo.amplitude *= part;
-      add_echo(echo, scratch.view, share, echoes);
+      if (echo.is_cortex) echo.sample += deeper;
+      add_echo(echo, view, echoes);
     }
   };
-  if (BeamTracer::blend_echoes(planes.a, planes.b, planes.share, scratch.between))
-    return add(scratch.between, 1);
-  add(planes.a, 1 - planes.share);
-  add(planes.b, planes.share);
+  if (BeamTracer::blend_echoes(planes.a, planes.b, planes.share, blended))
+    return add(blended, 1, 0);
+  add(planes.a, 1 - planes.share, planes.share * rise);
+  add(planes.b, planes.share, (planes.share - 1) * rise);
 }
 
-/// An interface seen by one beam: steep ones reach over several samples within the beam's pitch,
-/// and rough ones glitter and scatter on from just behind their surface.
-void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
-                             std::span<const float> share, EchoSpan echoes) const {
+/// How much deeper (samples) bone lies in the next plane, from where it ends the beams of two.
+double LineSynthesis::cortex_rise(const BeamTrace& a, const BeamTrace& b,
+                                  int planes_apart) const noexcept {
+  if (!on_screen_ || a.end_amplitude <= 0 || b.end_amplitude <= 0) return 0;
+  const double rise = std::abs(b.end_sample - a.end_sample) / planes_apart;
+  return rise < kCortexMostRise / shape_->sample_depth() ? rise : 0;
+}
+
+/// How much deeper (samples) an interface lies in the next elevation plane. On screens an interface
+/// that slopes across the slice is one that is smeared over its thickness, not one copy a plane.
+double LineSynthesis::rise_to_next_plane(const BeamEcho& echo,
+                                         const PlaneView& view) const noexcept {
+  if (!on_screen_ || n_planes_ < 2) return 0;
+  const double depth = echo.sample * shape_->sample_depth();
+  const int before = std::max(0, view.plane - 1);
+  const int behind = std::min(n_planes_ - 1, view.plane + 1);
+  const double apart =
+      (shape_->plane_elevation(behind, depth) - shape_->plane_elevation(before, depth)) /
+      (behind - before);
+  const double slope =
+      std::abs(echo.normal_J.dot(view.elevation_J)) / std::max(kSteepestFacet, echo.cosine);
+  return std::abs(apart) * slope / shape_->sample_depth();
+}
+
+/// An interface seen by one beam: steep ones reach over several samples within the beam's pitch and
+/// from plane to plane, and rough ones glitter and scatter on from just behind their surface.
+void LineSynthesis::add_echo(const BeamEcho& echo, const PlaneView& view, EchoSpan echoes) const {
   const auto end = static_cast<double>(echoes.size()) - 1;
   if (!(echo.sample >= 0) || echo.sample >= end) return;
-  if (echo.is_cortex) return add_cortex(echo, view, share, echoes);
+  if (echo.is_cortex) return add_cortex(echo, view, echoes);
   const auto first = static_cast<std::size_t>(echo.sample);
   const double slope = std::sqrt(std::max(0.0, 1 - echo.cosine * echo.cosine)) /
                        std::max(kSteepestFacet, echo.cosine);
-  const int n = std::max(1, static_cast<int>(std::lround(pitch_ * slope / shape_->sample_depth())));
+  const double reach =
+      std::max(pitch_ * slope / shape_->sample_depth(), rise_to_next_plane(echo, view));
+  const int n = std::max(1, static_cast<int>(std::lround(reach)));
   const std::array<float, 1> one{1};
   std::array<float, 1> n_re{};
   std::array<float, 1> n_im{};
-  ScatterField::add(view, echo.rest_J, Vec3::Zero(), one, n_re, n_im);
+  ScatterField::add(view.scatter, echo.rest_J, Vec3::Zero(), one, n_re, n_im);
   const auto glitter = static_cast<float>(kGlitter * echo.diffuse_share);
-  const float amplitude = static_cast<float>(echo.amplitude) * share[first];
+  const float amplitude =
+      static_cast<float>(echo.amplitude) * shape_->echo_weight(view.plane)[first];
   const float a_re = amplitude * (1 + glitter * n_re[0]) / static_cast<float>(n);
   const float a_im = amplitude * glitter * n_im[0] / static_cast<float>(n);
   for (int k = 0; k < n; ++k) {
@@ -274,38 +302,43 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
     value *= kTailDecay;
   }
   const EchoSpan tail = echoes.part(from, std::min(gain.size(), echoes.size() - from));
-  ScatterField::add(view, echo.rest_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
-                    std::span(gain).first(tail.size()), tail.re, tail.im);
+  ScatterField::add(view.scatter, echo.rest_J + static_cast<double>(kTailGap) * echo.step_J,
+                    echo.step_J, std::span(gain).first(tail.size()), tail.re, tail.im);
 }
 
 /// Bone as screens show it: a line as thick as cortex lets the sound in and out again, even along
-/// itself, made of echoes closer to each other than the pulse is long.
-void LineSynthesis::add_cortex(const BeamEcho& echo, const ScatterView& view,
-                               std::span<const float> share, EchoSpan echoes) const {
+/// itself, made of echoes closer to each other than the pulse is long; thicker where it rises from
+/// plane to plane.
+void LineSynthesis::add_cortex(const BeamEcho& echo, const PlaneView& view, EchoSpan echoes) const {
   std::array<float, kCortexEchoes> one{};
   one.fill(1);
   std::array<float, kCortexEchoes> n_re{};
   std::array<float, kCortexEchoes> n_im{};
-  const double step = static_cast<double>(cortex_step_);
   // across itself the line is as thick at a slope as where it is flat; the beam's width adds to it
   const double cosine = std::max(kSteepestCortex, echo.cosine);
   const double width = shape_->profile().lateral_width(echo.sample * shape_->sample_depth());
-  const double length = std::max(
-      step, cortex_ / std::pow(cosine, kCortexSlope) -
-                kCortexBeam * std::sqrt(1 - cosine * cosine) * width / shape_->sample_depth());
-  const auto n = std::min(kCortexEchoes, static_cast<std::size_t>(length / step) + 1);
-  ScatterField::add(view, echo.rest_J, step * echo.step_J, std::span(one).first(n),
+  const double length =
+      std::max(static_cast<double>(cortex_step_),
+               cortex_ / std::pow(cosine, kCortexSlope) -
+                   kCortexBeam * std::sqrt(1 - cosine * cosine) * width / shape_->sample_depth());
+  const double rise = view.cortex_rise;
+  const double step = std::max(static_cast<double>(cortex_step_),
+                               (length + rise) / static_cast<double>(kCortexEchoes));
+  const auto n = std::min(kCortexEchoes, static_cast<std::size_t>((length + rise) / step) + 1);
+  ScatterField::add(view.scatter, echo.rest_J, step * echo.step_J, std::span(one).first(n),
                     std::span(n_re).first(n), std::span(n_im).first(n));
-  const auto first = static_cast<std::size_t>(echo.sample);
-  const double amplitude = echo.amplitude * static_cast<double>(share[first]);
+  const double amplitude =
+      echo.amplitude * length / (length + rise) *
+      static_cast<double>(shape_->echo_weight(view.plane)[static_cast<std::size_t>(echo.sample)]);
   for (std::size_t k = 0; k < n; ++k) {
     const double into = static_cast<double>(k) * step;
-    const double fall = std::exp(-kCortexFall * std::max(0.0, into / length - kCortexEven));
-    const auto glitter = static_cast<double>(kCortexGlitter);
-    add_point_echo(echo.sample + into,
-                   amplitude * fall * (1 + glitter * static_cast<double>(n_re[k])), echoes.re);
-    add_point_echo(echo.sample + into, amplitude * fall * glitter * static_cast<double>(n_im[k]),
-                   echoes.im);
+    const double sample = echo.sample - 0.5 * rise + into;
+    if (sample < 0) continue;
+    const double behind = std::max(0.0, into - rise);
+    const double value =
+        amplitude * std::exp(-kCortexFall * std::max(0.0, behind / length - kCortexEven));
+    add_point_echo(sample, value * (1 + kCortexGlitter * static_cast<double>(n_re[k])), echoes.re);
+    add_point_echo(sample, value * kCortexGlitter * static_cast<double>(n_im[k]), echoes.im);
   }
 }
 
@@ -342,15 +375,28 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedL
       tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, more, {}};
   const BeamTrace* before = nullptr;
   int last = 0;
+  bool is_first = true;
+  PlaneView view{0, elevation, scratch.view, 0};
+  const auto add = [&](int p, const BeamTrace& trace) {
+    view.plane = p;
+    add_plane(view, trace, ground, echoes);
+  };
   for (int p = 0; p < n_planes_; ++p) {
     if (!shape_->hears_speckle(p)) continue;
     const BeamTrace& trace = beams.plane(p);
-    add_plane(p, trace, ground, echoes);
-    for (int q = last + 1; q < p && before != nullptr; ++q)
-      add_between(q, {*before, trace, (q - last) / static_cast<double>(p - last)}, scratch, echoes);
+    if (before != nullptr) {
+      view.cortex_rise = cortex_rise(*before, trace, p - last);
+      if (is_first) add(last, *before);
+      is_first = false;
+      add(p, trace);
+      for (view.plane = last + 1; view.plane < p; ++view.plane)
+        add_between(view, {*before, trace, (view.plane - last) / static_cast<double>(p - last)},
+                    scratch.between, echoes);
+    }
     before = &trace;
     last = p;
   }
+  if (is_first) add(last, *before);
   if (reverberates_) add_haze(beams.central(), echoes);
 }
 

@@ -54,7 +54,15 @@ class LineSynthesis {
     const ScatterField::MoreSets* more;  // null: one set of scatterers
     std::span<const BeamKnot> knots;     // of the plane at hand
   };
-  void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
+  /// An elevation plane, as interfaces are seen in it.
+  struct PlaneView {
+    int plane;
+    Vec3 elevation_J;  // unit
+    const ScatterView& scatter;
+    double cortex_rise;  // samples that bone lies deeper in the next plane
+  };
+  void add_plane(const PlaneView& view, const BeamTrace& trace, Ground& ground,
+                 EchoSpan echoes) const;
   void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
                             std::span<const ScatterPiece> pieces,
                             std::span<float> nodes) const noexcept;
@@ -66,11 +74,14 @@ class LineSynthesis {
     const BeamTrace& b;
     double share;
   };
-  void add_between(int plane, const Between& planes, LineScratch& scratch, EchoSpan echoes) const;
-  void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
-                EchoSpan echoes) const;
-  void add_cortex(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
-                  EchoSpan echoes) const;
+  void add_between(const PlaneView& view, const Between& planes, BeamTrace& blended,
+                   EchoSpan echoes) const;
+  void add_echo(const BeamEcho& echo, const PlaneView& view, EchoSpan echoes) const;
+  void add_cortex(const BeamEcho& echo, const PlaneView& view, EchoSpan echoes) const;
+  [[nodiscard]] double cortex_rise(const BeamTrace& a, const BeamTrace& b,
+                                   int planes_apart) const noexcept;
+  [[nodiscard]] double rise_to_next_plane(const BeamEcho& echo,
+                                          const PlaneView& view) const noexcept;
   static void add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept;
 
   const BeamShape* shape_;
@@ -79,6 +90,7 @@ class LineSynthesis {
   double speckle_;  // rms of muscle, mirror = 1
   bool has_texture_;
   bool reverberates_;
+  bool on_screen_;  // a look other than raw
   int n_planes_;
   double pitch_;             // m between scanlines
   std::size_t cortex_step_;  // samples between the echoes of which bone's line is made

@@ -24,8 +24,27 @@ constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
 // from pictures in which it is as bright at 50 degrees as at 20
 constexpr double kCortexFacing = 25 * kDegree;  // rad, of the part that faces the beam
 constexpr double kCortexRough = 0.42;           // amplitude of the part that any slope returns
-constexpr double kRepeatFrom = 0.02;            // echoes above -34 dB repeat
-constexpr double kOnward = 4e-3;  // m that a knot is good for where the middle plane ends
+// What a steep interface does to the one ray of a line the rest of an aperture does not meet there:
+// on screens it reflects and bends as one of this incidence at most, and bends less from the first
+// of these on, not at all from the second. assumed: twice the acceptance of an F/2 aperture off a
+// tendon's critical angle in fat
+constexpr double kSteepestMet = 0.64;  // cosine of 50 degrees
+constexpr double kBendsWhole = 0.91;   // of 25
+constexpr double kBendsNoMore = 0.64;  // of 50
+constexpr double kRepeatFrom = 0.02;   // echoes above -34 dB repeat
+// A skin that lies flat under the face where tissue does not give way. assumed, all four
+constexpr double kMostFlattened = 3e-3;  // m of gap
+constexpr double kStretch = 1.2;         // of the tissue behind
+constexpr double kTouches = 0.3e-3;      // m from face to skin, of a probe in contact
+constexpr double kHovers = 0.6e-3;       // m from which on it is not
+constexpr int kEveryLine = 8;            // lines between those that feel for the skin
+constexpr double kOnward = 4e-3;         // m that a knot is good for where the middle plane ends
+
+/// The share of a ray's bend that the whole aperture takes part in.
+double bend_share(double cosine) noexcept {
+  const double s = std::clamp((cosine - kBendsNoMore) / (kBendsWhole - kBendsNoMore), 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
 
 /// The share of bone's echo at perpendicular incidence that screens show at another.
 double cortex_share(double cosine) noexcept {
@@ -76,7 +95,8 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   const Vec3 normal = find_normal(walk, interval);
   const double cosine = -walk.wave.dot(normal);
   if (cosine < kAlongSurface) return !to.opaque && !air;
-  InterfaceResponse response = compute_interface(from, to, cosine);
+  const double met = on_screen_ ? std::max(cosine, kSteepestMet) : cosine;
+  InterfaceResponse response = compute_interface(from, to, met);
   if (air) response = {1, 1, 0, 0};
   const double sheath = sheath_reflection(from, to);
   const double roughness = std::max(from.roughness, to.roughness);
@@ -111,15 +131,32 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     trace.end_amplitude = trace.echoes[trace.n_echoes - 1].amplitude;
     return false;
   }
-  const double transmission = beam_transmission(from, to, cosine, response);
+  const double transmission = beam_transmission(from, to, met, response);
   if (transmission < 1e-4) return false;
   walk.log_transmission += std::log(transmission);
   if (walk.bends && response.transmission > 0) {
     const double ratio = to.speed / from.speed;
-    const Vec3 bent = ratio * walk.wave + (ratio * cosine - response.cosine_out) * normal;
-    walk.turn(bent.normalized());
+    const Vec3 bent = ratio * walk.wave + (ratio * met - response.cosine_out) * normal;
+    const double share = on_screen_ ? bend_share(cosine) : 1;
+    walk.turn((walk.wave + share * (bent - walk.wave)).normalized());
   }
   return true;
+}
+
+void BeamTracer::lay_on_skin(const Transducer& transducer, const Pose& X_JP) noexcept {
+  flattens_ = 0;
+  if (!on_screen_ || tissue_ != nullptr) return;
+  std::array<TissueInterval, 8> intervals;
+  double nearest = kHovers;
+  for (int l = kEveryLine / 2; l < transducer.n_lines; l += kEveryLine) {
+    const PlacedLine line = place_line(transducer, l, X_JP);
+    const Vec3 end = line.origin_J + 2 * kHovers * line.direction_J;
+    const QueryCount count = scene_->find_intervals({line.origin_J, end}, intervals);
+    if (count.size == 0) continue;
+    const bool gel = intervals[0].region == kOutside;
+    nearest = std::min(nearest, gel ? intervals[0].exit - intervals[0].entry : 0.0);
+  }
+  flattens_ = std::clamp((kHovers - nearest) / (kHovers - kTouches), 0.0, 1.0);
 }
 
 /// The first region of a beam. False when no sound enters the body.
@@ -127,6 +164,10 @@ bool BeamTracer::start(Walk& walk, RegionId region, double length) const noexcep
   walk.started = true;
   walk.region = region;
   walk.trace.contact = region != kOutside || length <= gel_limit_;
+  if (region == kOutside) {
+    walk.gap = flattens_ * std::min(length, kMostFlattened);
+    walk.flat_to = length + walk.gap / (kStretch - 1);
+  }
   return walk.trace.contact && !regions_[region].opaque && region != kBeyond;
 }
 
@@ -282,6 +323,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.end = walk.sample + piece * samples_per_m;
     const double loss = follow_fibres(walk, region, run, 0.5 * piece / time_scale * direction);
     walk.path += piece;
+    walk.reached += piece / time_scale;
     walk.sample = run.end;
     walk.attenuation += piece * region.attenuation * loss;
     walk.slope += piece * region.attenuation_slope * loss;
@@ -289,6 +331,26 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;
   }
   return true;
+}
+
+/// Goes through an interval, of which a flat skin takes the gel, or stretches the tissue.
+bool BeamTracer::go(Walk& walk, const Vec3& point, const Vec3& direction, double thickness,
+                    double time_scale) const noexcept {
+  if (walk.gap == 0) return cross(walk, point, direction, thickness * time_scale, time_scale);
+  if (walk.path == 0 && walk.region == kOutside) {
+    const double gel = thickness * time_scale - walk.gap;
+    walk.reached += walk.gap / time_scale;
+    return gel < kThinnest || cross(walk, point, direction, gel, time_scale);
+  }
+  double stretched = 0;
+  if (walk.path < walk.flat_to - kThinnest) {
+    const double scale = kStretch * time_scale;
+    stretched = std::min(thickness, (walk.flat_to - walk.path) / scale);
+    if (!cross(walk, point, direction, stretched * scale, scale)) return false;
+  }
+  const double rest = thickness - stretched;
+  return rest < kThinnest ||
+         cross(walk, point + stretched * direction, direction, rest * time_scale, time_scale);
 }
 
 /// Follows one straight piece; `time_scale` is beam length per geometric length. Returns false when
@@ -311,7 +373,7 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
       const double bend = walk.bends ? walk.wave.cross(direction).norm() : 0;
       if (bend > kStraight && bend * thickness > kSidewards) return true;
     }
-    if (!cross(walk, point, direction, thickness * time_scale, time_scale)) return false;
+    if (!go(walk, point, direction, thickness, time_scale)) return false;
   }
   return count.size > 0;
 }
@@ -329,14 +391,14 @@ void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamT
   bool alive = true;
   while (alive && walk.path < max_path_ && path.size + 2 < BeamPath::kMax) {
     path.p_J[path.size] = point;
-    path.length[path.size++] = walk.path;
+    path.length[path.size++] = walk.reached;
     const Vec3 direction = walk.wave;
-    const double before = walk.path;
+    const double before = walk.reached;
     alive = pass(walk, point, direction, max_path_ - walk.path, 1);
-    point += (walk.path - before) * direction;
-    if (walk.path == before) break;
+    point += (walk.reached - before) * direction;
+    if (walk.reached == before) break;
   }
-  if (walk.path < max_path_) point += (max_path_ - walk.path) * walk.wave;
+  if (walk.reached < max_path_) point += (max_path_ - walk.reached) * walk.wave;
   path.p_J[path.size] = point;
   path.length[path.size++] = max_path_;
   trace.shadow_from = std::max(walk.sample, 0.0);

@@ -54,7 +54,8 @@ ShownPlaces::ShownPlaces(const Scene& scene, const SmoothGradient* tissue,
                          std::span<const RegionAcoustics> regions, const Transducer& transducer,
                          const ImageSettings& settings, const Pose& X_JP) {
   ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
-  const BeamTracer tracer(scene, tissue, regions, transducer, settings);
+  BeamTracer tracer(scene, tissue, regions, transducer, settings);
+  tracer.lay_on_skin(transducer, X_JP);
   const double sample_depth = settings.depth / settings.n_samples;
   const auto trace = std::make_unique<BeamTrace>();
   BeamPath path;

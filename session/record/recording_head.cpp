@@ -21,7 +21,7 @@ namespace {
 // and `given` counts what left the needle forward, so that a replay of before would differ.
 // 15: beams between beams, and every second plane's scatterers: pictures are others.
 // 16: look, grey curve, compounding, persistence and Doppler are turned in a session.
-constexpr int kVersion = 16;
+constexpr int kVersion = 17;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 
