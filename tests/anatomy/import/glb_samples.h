@@ -65,7 +65,7 @@ struct GlbNode {
 
 /// What a file says of a mesh's indices and places.
 inline std::string accessor_pair(const SurfaceMesh& mesh, const std::string& index_view,
-                          const std::string& place_view) {
+                                 const std::string& place_view) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : mesh.vertices) box.extend(p);
   return "{" + index_view +
