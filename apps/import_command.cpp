@@ -9,6 +9,7 @@
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/core/csv.h"
+#include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/import_page.h"
@@ -96,10 +97,13 @@ nlohmann::json to_json(const ImportedJoint& joint, const std::filesystem::path& 
 void print(const ImportedJoint& joint, const std::filesystem::path& out) {
   std::printf("%-32s %-10s %8s %10s %10s  %s\n", "structure", "tissue", "label", "voxels cm3",
               "is cm3", "known by");
-  for (const auto& s : joint.structures)
-    std::printf("%-32s %-10s %8.0f %10.3f %10.3f  %s\n", s.name.c_str(), s.tissue.c_str(), s.value,
-                s.volumes.counted / kCubicCentimetre, s.volumes.fitted / kCubicCentimetre,
-                s.by.c_str());
+  for (const auto& s : joint.structures) {
+    const bool has_voxels = s.n_voxels > 0;  // surfaces and tubes have none
+    std::printf("%-32s %-10s %8s %10s %10.3f  %s\n", s.name.c_str(), s.tissue.c_str(),
+                has_voxels ? printed("%.0f", s.value).c_str() : "-",
+                has_voxels ? printed("%.3f", s.volumes.counted / kCubicCentimetre).c_str() : "-",
+                s.volumes.fitted / kCubicCentimetre, s.by.c_str());
+  }
   std::printf("body: by %s\n", joint.body_by.c_str());
   for (const auto& text : joint.assumed) std::printf("assumed: %s\n", text.c_str());
   for (const auto& s : joint.left_out)

@@ -106,23 +106,66 @@ Result<void> check_refusals(const JointSources& sources,
   return refuse_all(refusals, file);
 }
 
-// What was given and of which nothing is there is no joint that its author meant.
-Result<void> check_lost(const JointFile& file, const CompileReport& report,
+double area_in_region(const SurfaceMesh& mesh, const std::optional<RegionOfInterest>& roi) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles)
+    if (!roi || signed_distance(*roi, triangle_centre(mesh, t)) <= 0)
+      area += triangle_area(mesh, t);
+  return area;
+}
+
+/// The area of the interfaces of each structure, without where the region of interest ends, m^2.
+std::vector<double> interface_areas(const TetMesh& mesh, std::size_t n_structures) {
+  std::vector<double> areas(n_structures, 0);
+  for (const Interface& f : mesh.interfaces) {
+    if (f.front == kBeyond) continue;
+    const Vec3& a = mesh.vertices[f.vertices[0]];
+    const double area =
+        (mesh.vertices[f.vertices[1]] - a).cross(mesh.vertices[f.vertices[2]] - a).norm() / 2;
+    for (const RegionId region : {f.front, f.back})
+      if (region >= region_of_structure(0)) areas[region - region_of_structure(0)] += area;
+  }
+  return areas;
+}
+
+/// What of a structure the joint lacks, and what would do; empty: it is there. A layer keeps its
+/// surface whatever lies inside of it, so that its volume alone tells nothing.
+std::string explain_lost(const StructureReport& r, double given_area, double area) {
+  constexpr double kLeast = 0.5;        // of the volume that others leave, assumed
+  constexpr double kLeastShown = 0.25;  // of its own surface in the region, as find_misplaced
+  const double left = r.region_volume - r.lost_volume;
+  const std::string numbers =
+      printed("%.3g of its %.3g cm3 would be in the joint", r.resolved_volume / kCubicCentimetre,
+              r.surface_volume / kCubicCentimetre);
+  if (area < kLeastShown * given_area)
+    return numbers + (r.lost_to.empty()
+                          ? std::string("; check its unit, frame and position, or remove it")
+                          : ": '" + r.lost_to +
+                                "' stands before it and takes it; put it before that, or remove "
+                                "it");
+  if (r.resolved_volume < kLeast * left)
+    return numbers + printed(
+                         ", although %.3g cm3 of it lie in the region and nothing takes them: "
+                         "its tetrahedra are too coarse; give it a smaller facet_size and "
+                         "facet_distance",
+                         left / kCubicCentimetre);
+  return {};
+}
+
+// What was given and of which nothing, or much less, is there is no joint that its author meant.
+Result<void> check_lost(const JointFile& file, const PreparedSurfaces& surfaces,
+                        const TetMesh& mesh, const CompileReport& report,
                         const CompileOptions& options) {
-  constexpr double kNothing = 0.02;  // of what lies in the body and the region
   std::vector<std::string> refusals;
   if (!options.check_plans || options.skip_refused) return {};
-  for (const StructureReport& r : report.structures) {
-    if (r.kind != "surface" || !r.refused.empty()) continue;
-    if (r.resolved_volume > kNothing * r.region_volume) continue;
-    refusals.push_back(
-        r.name +
-        printed(": %.3g of its %.3g cm3 would be in the joint",
-                r.resolved_volume / kCubicCentimetre, r.surface_volume / kCubicCentimetre) +
-        (r.lost_to.empty() ? std::string("; check its unit, frame and position, or remove it")
-                           : ": '" + r.lost_to +
-                                 "' stands before it and takes it; put it before "
-                                 "that, or remove it"));
+  const std::vector<double> areas = interface_areas(mesh, file.structures.size());
+  for (std::size_t i = 0; i < file.structures.size(); ++i) {
+    const StructureReport& r = report.structures[i + 1];  // behind the filler
+    if (r.kind != "surface" || !r.refused.empty() || !surfaces.structures[i]) continue;
+    if (has_region_of_variant(file.variants) && 2 * r.region_volume < r.surface_volume) continue;
+    const double given = area_in_region(surfaces.structures[i]->mesh, file.region_of_interest);
+    const std::string lost = explain_lost(r, given, areas[i]);
+    if (!lost.empty()) refusals.push_back(r.name + ": " + lost);
   }
   return refuse_all(refusals, file);
 }
@@ -258,7 +301,7 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
     report.notes.push_back("body: " + warning);
   append_warnings(file, space->labels, *surfaces, report);
   append_gap_cuts(file, *space, report);
-  ARTUS_TRY(check_lost(file, report, options));
+  ARTUS_TRY(check_lost(file, *surfaces, complex->mesh, report, options));
   outcome.joint = attach_metadata(file, std::move(complex->mesh), std::move(*digest), report.notes);
   report.seconds = seconds_since(start);
   report.peak_memory = peak_memory();

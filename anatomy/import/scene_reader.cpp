@@ -57,7 +57,7 @@ bool reads_scenes() noexcept {
 
 namespace {
 
-constexpr rlim_t kMostMemory = rlim_t{4} << 30U;  // bytes
+[[maybe_unused]] constexpr rlim_t kMostMemory = rlim_t{4} << 30U;  // bytes
 constexpr rlim_t kMostSeconds = 120;
 
 /// What the process that reads says: a byte for yes or no, then parts or the reason.

@@ -93,28 +93,6 @@ class NamesReader {
   std::vector<Tissue> tissues_;
 };
 
-/// "index name r g b a" of 3D Slicer, or "index r g b a visible mesh "name"" of ITK-SNAP.
-Result<StructureNames> parse_colour_table(std::string_view text, const std::string& name) {
-  StructureNames names;
-  const auto each = [&](std::string_view line, const std::string& where) -> Result<void> {
-    line = trimmed(line);
-    if (line.empty() || line.front() == '#') return {};
-    TextCursor cursor(line, where);
-    const auto value = parse_number(cursor.next());
-    std::string label(cursor.next());
-    const auto open = line.find('"');
-    if (open != std::string_view::npos)
-      label = line.substr(open + 1, line.find('"', open + 1) - open - 1);
-    if (!value || *value < 0 || *value > kLargestLabel || label.empty())
-      return fail(ErrorCode::malformed,
-                  "a line of a colour table is: number, name, red, green, blue, alpha", where);
-    if (*value > 0) names.labels.push_back({*value, label, {}});
-    return {};
-  };
-  ARTUS_TRY(for_lines(text, name, each));
-  return names;
-}
-
 std::vector<std::string> words_of_name(std::string_view name) {
   std::vector<std::string> words;
   std::string word;
@@ -184,6 +162,28 @@ Result<StructureNames> parse_structure_names(std::string_view text, const std::s
   toml.finish();
   if (!reader.problems.empty()) return reader.problems.refusal(ErrorCode::invalid, name);
   return std::move(reader.names);
+}
+
+/// "index name r g b a" of 3D Slicer, or "index r g b a visible mesh "name"" of ITK-SNAP.
+Result<StructureNames> parse_colour_table(std::string_view text, const std::string& name) {
+  StructureNames names;
+  const auto each = [&](std::string_view line, const std::string& where) -> Result<void> {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') return {};
+    TextCursor cursor(line, where);
+    const auto value = parse_number(cursor.next());
+    std::string label(cursor.next());
+    const auto open = line.find('"');
+    if (open != std::string_view::npos)
+      label = line.substr(open + 1, line.find('"', open + 1) - open - 1);
+    if (!value || *value < 0 || *value > kLargestLabel || label.empty())
+      return fail(ErrorCode::malformed,
+                  "a line of a colour table is: number, name, red, green, blue, alpha", where);
+    if (*value > 0) names.labels.push_back({*value, label, {}});
+    return {};
+  };
+  ARTUS_TRY(for_lines(text, name, each));
+  return names;
 }
 
 Result<StructureNames> read_structure_names(const std::filesystem::path& file) {

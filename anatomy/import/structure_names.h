@@ -52,8 +52,13 @@ struct StructureNames {
 [[nodiscard]] Result<StructureNames> parse_structure_names(std::string_view text,
                                                            const std::string& name);
 
-/// The same from a file; 3D Slicer's colour table (.ctbl) and ITK-SNAP's label descriptions (.txt,
-/// .label) give the labels' names alone. Errors: not_found, unreadable; as parse_structure_names.
+/// The labels' names alone, of 3D Slicer's colour table (.ctbl) or ITK-SNAP's label descriptions
+/// (.txt, .label). Errors: malformed (no line of it names a label).
+[[nodiscard]] Result<StructureNames> parse_colour_table(std::string_view text,
+                                                        const std::string& name);
+
+/// The names of a file, by its ending (.toml or a colour table). Errors: not_found, unreadable; as
+/// parse_structure_names and parse_colour_table.
 [[nodiscard]] Result<StructureNames> read_structure_names(const std::filesystem::path& file);
 
 /// The table that comes with artus.

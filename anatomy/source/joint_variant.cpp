@@ -58,7 +58,7 @@ std::vector<JointVariant> read_declared(const toml::table& joint,
       else
         static_cast<void>(one.table(part));
     one.finish();
-    declared.push_back({name, title, is_there(chosen, name)});
+    declared.push_back({name, title, is_there(chosen, name), table->contains(kReplaced[0])});
   }
   return declared;
 }
@@ -129,6 +129,11 @@ void replace_parts(toml::table& joint, const std::vector<JointVariant>& variants
 }
 
 }  // namespace
+
+bool has_region_of_variant(const std::vector<JointVariant>& variants) {
+  return std::any_of(variants.begin(), variants.end(),
+                     [](const JointVariant& v) { return v.chosen && v.has_region; });
+}
 
 std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants) {
   std::vector<std::string> names;

@@ -17,7 +17,8 @@ constexpr std::size_t kSamples = 400;           // of each surface
 constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
 constexpr double kOutsideShare = 0.02;          // of the samples, as compile warns of
 constexpr double kAll = 0.99;                   // of the samples
-constexpr double kSlip = 1 * kMillimetre;       // what metres written as millimetres come to
+constexpr double kTooMuchOutside = 0.5;    // of its area, assumed: less than half of it is left
+constexpr double kSlip = 1 * kMillimetre;  // what metres written as millimetres come to
 
 /// Evenly chosen vertices of a surface that lie in the region of interest.
 std::vector<Vec3> samples_of(const SurfaceMesh& mesh, const std::optional<RegionOfInterest>& roi) {
@@ -97,7 +98,7 @@ class Finder {
     found_.push_back({verdict, "misplaced", s.name, s.line, std::move(message)});
   }
 
-  // A structure of which nothing will be in the joint is no joint that its author meant.
+  // Nothing of a structure, or much less than was given: no joint that its author meant.
   void add_lost(std::size_t i, std::string message) {
     const Structure& s = file_.structures[i];
     found_.push_back({Verdict::refused, "lost", s.name, s.line, std::move(message)});
@@ -153,7 +154,7 @@ class Finder {
   // Far from the region of interest; what only has no vertex in it is not told.
   void tell_beyond(std::size_t i) {
     const auto& roi = file_.region_of_interest;
-    if (!roi || !surfaces_.structures[i]) return;
+    if (!roi || !surfaces_.structures[i] || has_region_of_variant(file_.variants)) return;
     const DistanceTree& tree = surfaces_.structures[i]->tree;
     const double reach = roi->half_extent ? roi->half_extent->norm() : roi->radius;
     const double distance = tree.distance(roi->centre, 1);
@@ -168,10 +169,13 @@ class Finder {
     if (!(lie.outside > 0)) return;
     lie = area_outside(i);  // samples only say where to look
     if (lie.outside <= kOutsideShare) return;
-    const bool is_lost = lie.outside > kAll;
-    const char* rest = is_lost ? "none of it will be in the joint; check its frame and units, or "
-                                 "remove it"
-                               : "that part is cut off";
+    const bool is_lost = lie.outside > kTooMuchOutside;
+    const char* rest = "that part is cut off";
+    if (is_lost)
+      rest = lie.outside > kAll
+                 ? "none of it will be in the joint; check its frame and units, or remove it"
+                 : "too little of it would be in the joint; check its frame and units; if the body "
+                   "ends there, set 'region_of_interest' to where it does, or remove the structure";
     const std::string text =
         printed("%.0f %% of its surface lies outside of the skin, up to %.1f mm; %s",
                 100 * lie.outside, lie.farthest / kMillimetre, rest);
@@ -245,16 +249,18 @@ class Finder {
     tell_shared_out(i);
   }
 
-  // Inside of several that stand before it, none of which takes all.
+  // Inside of several that stand before it, or partly outside of the skin: what is left of its
+  // surface. Of a layer that stands behind what lies inside of it, all of it is.
   void tell_shared_out(std::size_t i) {
-    constexpr double kNearlyAll = 0.9;  // of the samples
+    constexpr double kMuchTaken = 0.75;  // of the samples, assumed: half of cartilage lies in bone
     std::vector<std::size_t> others;
     for (std::size_t k = 0; k < i; ++k)
       if (surfaces_.structures[k] && !is_twin(i, k)) others.push_back(k);
     std::size_t n_taken = 0;
     std::vector<bool> takes(i, false);
     for (const Vec3& p : samples_[i]) {
-      bool taken = false;
+      const DistanceTree& body = surfaces_.body.tree;
+      bool taken = body.winding_number(p) <= 0.5 && body.distance(p, kClearly) >= kClearly;
       for (const std::size_t k : others) {
         const DistanceTree& other = surfaces_.structures[k]->tree;
         if ((p.array() < other.lower().array()).any() || (p.array() > other.upper().array()).any())
@@ -266,15 +272,15 @@ class Finder {
       n_taken += taken ? 1U : 0U;
     }
     const double share = static_cast<double>(n_taken) / static_cast<double>(samples_[i].size());
-    if (share < kNearlyAll) return;
+    if (share < kMuchTaken) return;
     std::string names;
     for (std::size_t k = 0; k < i; ++k)
       if (takes[k]) names += (names.empty() ? "'" : ", '") + file_.structures[k].name + "'";
-    add(Verdict::look, file_.structures[i],
-        printed(
-            "%.0f %% of it lies inside %s, which stand before it in the file and take that: put "
-            "it before them if it is meant, otherwise check its frame",
-            100 * share, names.substr(0, 100).c_str()));
+    if (names.empty()) return;  // what lies outside of the skin alone is told already
+    add_lost(i, printed("%.0f %% of its surface lies inside %s, which stand before it in the file "
+                        "and take that, or outside of the skin; too little of it would be in the "
+                        "joint: put it before them if it is meant, otherwise check its frame",
+                        100 * share, names.substr(0, 100).c_str()));
   }
 
   [[nodiscard]] bool is_twin(std::size_t i, std::size_t k) const {

@@ -7,11 +7,12 @@
 namespace artus {
 
 /// Structures that are not where they should be: all of them outside of the body (it is of another
-/// frame: refused), one wholly outside of it or of the region of interest ("lost": refused), one
-/// partly outside, one all in a bone, two that are the same; landmarks in metres or far from the
-/// body. Requires: `surfaces` of
-/// `file`. Cost: some hundred points of each structure in each tree, all faces
-/// of one that sticks out.
+/// frame: refused), one of which nothing, or much less than was given, would be in the joint
+/// ("lost": refused): more than half of its surface in the region outside of the body, three
+/// quarters of it taken by what stands before it, wholly outside of the region of interest unless a
+/// variant has set that, or the same as another one; one partly outside, one all in a bone;
+/// landmarks in metres or far from the body. Requires: `surfaces` of `file`. Cost: some hundred
+/// points of each structure in each tree, all faces of one that sticks out.
 [[nodiscard]] std::vector<Finding> find_misplaced(const JointFile& file,
                                                   const PreparedSurfaces& surfaces);
 

@@ -181,6 +181,22 @@ TEST_F(AdviceFolder, AStructureOfWhichNothingIsLeftIsRefusedAndItsPlaceInTheFile
   EXPECT_THAT(refused.error().message, HasSubstr("put it before 'vastus'"));
 }
 
+TEST_F(AdviceFolder, WhatConstructsTakeAllButALittleOfIsRefusedWithTheTaker) {
+  // The dermis is no surface that check could look into: only the compiled labels tell.
+  folder_.add_sphere("body", Vec3(0, 0, 0), 30);
+  folder_.add_sphere("nerve", Vec3(28.5, 0, 0), 1.2);
+  const std::string skin =
+      "[[structure]]\nname = \"dermis\"\ntissue = \"skin\"\nshell = { thickness = 2.5 "
+      "}\n";
+  const std::string nerve =
+      "[[structure]]\nname = \"nerve\"\ntissue = \"nerve\"\nfile = \"nerve.ply\"\n";
+  const auto refused = compile(skin + nerve, true);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("'dermis' stands before it and takes it"));
+  const auto mended = compile(nerve + skin, true);
+  EXPECT_TRUE(mended) << mended.error().to_string();
+}
+
 TEST_F(AdviceFolder, ARecessIsNeverToldToStandBeforeItsFloorAndTheAdviceKeepsTheBone) {
   folder_.add_sphere("roof", Vec3(0, 0, 38), 39);
   folder_.add_sphere("floor", Vec3(0, 0, -41), 40.05);

@@ -45,7 +45,9 @@ StructureNames user_names() {
 
 std::string refusal(const std::string& bytes, const std::string& name) {
   const auto labels = read_labels(bytes, name, {});
-  return labels ? "none" : labels.error().to_string();
+  if (labels) return "none";
+  EXPECT_THAT(labels.error().where, HasSubstr(name));
+  return labels.error().message;
 }
 
 TEST(VolumeReaders, EveryFormatGivesTheSameLabelsAndFrame) {

@@ -72,11 +72,11 @@ TEST_F(ImportedTruth, VolumesSurfacesAndNormalsAreThoseOfTheJoint) {
     const double got = test::volume_of_region(*made, mine);
     EXPECT_NEAR(got, volume, 0.02 * volume) << name;
     const auto apart = test::compare(test::surface_of_region(*made, mine),
-                                     test::surface_of_region(joint, region), 600);
+                                     test::surface_of_region(joint, region), 600, voxel);
     EXPECT_LT(apart.p95, 0.6 * voxel) << name;
-    EXPECT_LT(apart.normal_rms, 6) << name;
+    EXPECT_LT(apart.facet_rms, 6) << name;
     std::printf("%-32s %9.3f cm3 %+6.2f %%  p95 %.3f voxel  normals %.2f deg rms\n", name.c_str(),
-                volume * 1e6, 100 * (got / volume - 1), apart.p95 / voxel, apart.normal_rms);
+                volume * 1e6, 100 * (got / volume - 1), apart.p95 / voxel, apart.facet_rms);
   }
   EXPECT_GT(n, 4U);
 }
