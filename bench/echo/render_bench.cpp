@@ -326,7 +326,10 @@ int main(int argc, char** argv) {
     const artus::Vec3 bursa(0, 0, -37e-3);
     artus::add_filled("muscle", bodies[2], {{"muscle", 1e-6, false, muscle}});
     artus::add_filled("bursa", bodies[2], {{"bursa", 5e-6, true, bursa}});
-    for (const std::size_t k : {0U, 1U, 3U}) artus::add_case("spheres", bodies[k], {});
+    for (const std::size_t k : {0U, 1U, 3U}) {
+      const std::size_t triangles = bodies[k].scene->joint().mesh.interfaces.size();
+      artus::add_case("spheres-of-" + std::to_string(triangles), bodies[k], {});
+    }
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -25,6 +25,7 @@ struct BeamRun {
   double log_gain_end = 0;            ///< at `end`
   double path_begin = 0;              ///< m along the beam from the face to `begin`
   double path_end = 0;                ///< m, to `end`
+  double lifted = 0;                  ///< m deeper in the body than shown, at `begin`: a flat skin
   Vec3 material = Vec3::Zero();       ///< m, the region's own coordinates at `begin`
   Vec3 material_step = Vec3::Zero();  ///< m per sample
   double along = 0;                   ///< |cosine| between wave and fibres

@@ -319,6 +319,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.n_pieces = static_cast<std::uint16_t>(pieces);
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
+    run.lifted = walk.reached - walk.path;
     run.path_end = walk.path + piece;
     run.end = walk.sample + piece * samples_per_m;
     const double loss = follow_fibres(walk, region, run, 0.5 * piece / time_scale * direction);

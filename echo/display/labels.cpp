@@ -147,8 +147,8 @@ LabelImage LabelRenderer::render_shown(const ShownPlaces& places, const Pose& X_
   const Pose X_PJ = X_JP.inverse();
   const auto place_P = [&](int x, int y) -> Vec3 {
     const ScanConverter::LinePlace at = converter_.line_at(x, y);
-    Vec3 place = places.place(at.line, at.sample);
-    if (at.share > 0) place += at.share * (places.place(at.line + 1, at.sample) - place);
+    Vec3 place = places.needle_place(at.line, at.sample);
+    if (at.share > 0) place += at.share * (places.needle_place(at.line + 1, at.sample) - place);
     return X_PJ * place;
   };
   mark_needle(*needle, X_JP, half_pulse_, place_P, labels);

@@ -19,17 +19,25 @@ constexpr double kPastSurface = 1e-6;    // m behind the surface that ended the 
 void add_runs(const BeamTrace& trace, std::vector<ShownPlaces::Piece>& pieces) {
   for (std::size_t k = 0; k < trace.n_runs; ++k) {
     const BeamRun& run = trace.runs[k];
-    pieces.push_back({run.begin, run.path_begin, run.p_J, run.step_J, run.region});
+    const double samples = run.end - run.begin;
+    const double step = samples > 0 ? (run.path_end - run.path_begin) / samples : run.step_J.norm();
+    pieces.push_back(
+        {run.begin, run.path_begin, run.p_J, run.step_J, run.region, step, run.lifted});
   }
 }
 
 /// Where the sound of a line ends, and how it would go on.
 ShownPlaces::Piece end_of(const BeamTrace& trace, const PlacedLine& placed, double sample_depth) {
   if (trace.n_runs == 0)
-    return {0, 0, placed.origin_J, sample_depth * placed.direction_J, kOutside};
+    return {0, 0, placed.origin_J, sample_depth * placed.direction_J, kOutside, sample_depth, 0};
   const BeamRun& run = trace.runs[trace.n_runs - 1];
-  return {run.end, run.path_end, run.p_J + (run.end - run.begin) * run.step_J,
-          sample_depth * run.direction_J, run.region};
+  return {run.end,
+          run.path_end,
+          run.p_J + (run.end - run.begin) * run.step_J,
+          sample_depth * run.direction_J,
+          run.region,
+          sample_depth,
+          0};
 }
 
 /// What lies on the straight line behind it, to the picture's lower edge.
@@ -44,7 +52,7 @@ void add_beyond(const Scene& scene, const ShownPlaces::Piece& end, double n_samp
   for (std::size_t k = 0; k < count.size; ++k) {
     const double at = k == 0 ? 0 : intervals[k].entry + kPastSurface;
     pieces.push_back({end.begin + at / sample_depth, end.path + at, end.p_J + at * direction,
-                      end.step_J, intervals[k].region});
+                      end.step_J, intervals[k].region, end.path_step, 0});
   }
 }
 
@@ -90,6 +98,13 @@ Vec3 ShownPlaces::place(int index, double sample) const noexcept {
   return piece.p_J + (sample - piece.begin) * piece.step_J;
 }
 
+Vec3 ShownPlaces::needle_place(int index, double sample) const noexcept {
+  const Piece& piece = piece_at(index, sample);
+  const double step = piece.step_J.norm();
+  const double lifted = piece.lifted + (sample - piece.begin) * (step - piece.path_step);
+  return place(index, sample) - lifted / step * piece.step_J;
+}
+
 RegionId ShownPlaces::region(int index, double sample) const noexcept {
   return piece_at(index, sample).region;
 }
@@ -99,7 +114,7 @@ double ShownPlaces::sample_of(int index, double depth) const noexcept {
   const auto behind = std::upper_bound(pieces.begin() + 1, pieces.end(), depth,
                                        [](double d, const Piece& piece) { return d < piece.path; });
   const Piece& piece = *(behind - 1);
-  return piece.begin + (depth - piece.path) / piece.step_J.norm();
+  return piece.begin + (depth - piece.path) / piece.path_step;
 }
 
 }  // namespace artus

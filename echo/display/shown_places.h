@@ -27,6 +27,8 @@ class ShownPlaces {
     Vec3 p_J = Vec3::Zero();      ///< m, at `begin`
     Vec3 step_J = Vec3::UnitZ();  ///< m per sample
     RegionId region = kOutside;
+    double path_step = 1;  ///< m of `path` per sample
+    double lifted = 0;     ///< m that tissue at `begin` lies deeper than a flat skin shows it
   };
 
   /// Follows the lines of a probe at `X_JP`. `tissue`: how the scene's gives way; null: it is at
@@ -39,6 +41,8 @@ class ShownPlaces {
   [[nodiscard]] std::span<const Piece> line(int index) const noexcept;
   /// m, frame J, of what a sample shows.
   [[nodiscard]] Vec3 place(int index, double sample) const noexcept;
+  /// m, frame J, where a needle is that a sample shows: a flat skin lifts tissue, no needle.
+  [[nodiscard]] Vec3 needle_place(int index, double sample) const noexcept;
   [[nodiscard]] RegionId region(int index, double sample) const noexcept;
   /// The sample that shows what lies `depth` m along the sound of a line.
   [[nodiscard]] double sample_of(int index, double depth) const noexcept;

@@ -57,6 +57,7 @@ TEST(FlatSkin, LiesUnderAFaceThatTouchesARoundLimb) {
     // five times as deep nothing has moved, but for the speed of what took the gel's place
     const double deep = 6.5 * std::min(gap, 3e-3) + 1e-3;
     EXPECT_NEAR(flat.sample_of(line, deep), round.sample_of(line, deep), 8);
+    EXPECT_LT((flat.needle_place(line, 30) - round.needle_place(line, 30)).norm(), 0.15e-3);
     EXPECT_LT((flat.place(line, 900) - round.place(line, 900)).norm(), 0.4e-3);
   }
 }

@@ -76,6 +76,17 @@ cv::Mat muscle_picture(Look look, double turn, const char* transducer) {
       .clone();
 }
 
+/// A scene by both looks.
+std::vector<cv::Mat> pictures_of(const std::shared_ptr<const Scene>& scene) {
+  std::vector<cv::Mat> pictures;
+  for (const Look look : {Look::clinical, Look::compound}) {
+    ImageSettings settings = screen_settings();
+    settings.look = look;
+    pictures.push_back(grey_image(render_bmode(scene, Pose::Identity(), {}, {}, settings)).clone());
+  }
+  return pictures;
+}
+
 cv::Mat needle_picture_at(double degrees) {
   const ScreenNeedle needle = make_screen_needle(degrees * kDegree);
   return grey_image(
@@ -105,6 +116,8 @@ Result<Gate> measure_plates(const std::filesystem::path& folder) {
   const RealPicture other{"timtrack_more/S4_L20_step_025.png", {0, 0, 514, 458}, kVastusPixel};
   const RealPicture bone{"plus_bone/BoneUltrasound_L14_05.png", {176, 3, 467, 613}, kBonePixel};
   const RealPicture nerve{"usgra/0003.png", {0, 68, 512, 334}, kTe7Pixel};
+  const RealPicture vessel{"usgra/0007.png", {0, 68, 512, 334}, kTe7Pixel};
+  const RealPicture fat{"usgra/0002.png", {0, 0, 512, 474}, kTe7Pixel};
   TextTable table{{"picture", "5 %", "median", "95 %", "99 %", "skewness, finest"}, {}};
   const auto add = [&](const std::string& name, const std::vector<cv::Mat>& ours,
                        const RealPicture& real) -> Result<void> {
@@ -127,6 +140,8 @@ Result<Gate> measure_plates(const std::filesystem::path& folder) {
                 bone));
   ARTUS_TRY(
       add("needle", {needle_picture_at(15), needle_picture_at(30), needle_picture_at(50)}, nerve));
+  ARTUS_TRY(add("nerve-artery", pictures_of(nerve_beside_artery()), vessel));
+  ARTUS_TRY(add("fat", pictures_of(deep_fat()), fat));
   gate.tables.emplace_back("Grey in the middle of each picture", table);
   gate.claims.push_back(claim_that({ClaimKind::fitted, "that the plates are there is no evidence"},
                                    "every plate has its real picture", true));

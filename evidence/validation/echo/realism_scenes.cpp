@@ -17,13 +17,14 @@ namespace {
 constexpr double kTopOfBone = 18e-3;   // m
 constexpr double kBoneRadius = 14e-3;  // m
 constexpr int kCoarse = 3;             // 1280 triangles
+constexpr double kDeepFat = 18e-3;     // m
 
 std::shared_ptr<const Scene> scene_of(CompiledJoint joint) {
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(joint)));
 }
 
-CompiledJoint arm(double fibre_degrees) {
-  const std::array<FlatLayer, 3> layers{{{"skin", 1.5e-3}, {"fat", 4e-3}, {"muscle", 80e-3}}};
+CompiledJoint arm(double fibre_degrees, double fat = 4e-3) {
+  const std::array<FlatLayer, 3> layers{{{"skin", 1.5e-3}, {"fat", fat}, {"muscle", 80e-3}}};
   CompiledJoint joint = make_layered_block(make_phantom_tissues(), layers, 160e-3, 60e-3);
   joint.regions.back().fibre_axis =
       Vec3(std::cos(fibre_degrees * kDegree), 0, std::sin(fibre_degrees * kDegree));
@@ -61,6 +62,18 @@ ScreenPicture picture_of_bone(const std::string& transducer) {
 
 std::shared_ptr<const Scene> long_axis_muscle() {
   return scene_of(arm(15));
+}
+
+std::shared_ptr<const Scene> deep_fat() {
+  return scene_of(arm(5, kDeepFat));
+}
+
+std::shared_ptr<const Scene> nerve_beside_artery() {
+  CompiledJoint joint = arm(5, kDeepFat);
+  const RegionId fat = region_named(joint, "fat");
+  add_ball(joint, {"nerve", Vec3(-7e-3, 0, 12e-3), 2e-3}, fat, kCoarse + 1);
+  add_ball(joint, {"artery", Vec3(2e-3, 0, 11e-3), 2.5e-3}, fat, kCoarse + 1);
+  return scene_of(std::move(joint));
 }
 
 std::shared_ptr<const Scene> needle_scene() {

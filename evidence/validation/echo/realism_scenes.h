@@ -29,6 +29,12 @@ struct ScreenPicture {
 /// Skin, fat and muscle with its fibres 15 degrees to the face.
 [[nodiscard]] std::shared_ptr<const Scene> long_axis_muscle();
 
+/// Skin and 18 mm of fat over muscle.
+[[nodiscard]] std::shared_ptr<const Scene> deep_fat();
+
+/// A nerve of 4 mm and an artery of 5 mm beside each other in fat over muscle.
+[[nodiscard]] std::shared_ptr<const Scene> nerve_beside_artery();
+
 /// Muscle alone, without texture: what needles are measured in.
 [[nodiscard]] std::shared_ptr<const Scene> needle_scene();
 
