@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "artus/detail/apps/hands_command.h"
@@ -9,6 +10,7 @@
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/options/told_file.h"
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
@@ -33,6 +35,7 @@ struct TrainCommandOptions {
   TrainOptions train;
   std::string hands;          // webcam, a file or a folder: the kit's camera
   std::filesystem::path kit;  // its file
+  std::filesystem::path told;  // what the window says, a line a time
   std::string teacher;        // where a teacher's browser can look on
 };
 
@@ -192,6 +195,18 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(keys);
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
+  std::optional<ToldFile> told;
+  if (!options.told.empty()) {
+    auto opened = ToldFile::open(options.told);
+    ARTUS_TRY(opened);
+    told.emplace(std::move(*opened));
+    pages.watch = [&told](const Page& page) {
+      told->tell(page);
+    };
+    options.window.watch = [&told](const WindowStatus& window) {
+      told->tell(window);
+    };
+  }
   auto desk = open_desk(**screen, pages, options.records, options.attempts);
   ARTUS_TRY(desk);
   RemoteTurns turns;
@@ -296,6 +311,8 @@ void add_train_command(Command& app, ExitCode& code) {
   add_igtl_options(command, session.igtl);
   add_window_options(command, options->window, options->language);
   command->add_option("--script", options->script, "do what this file says, then end");
+  command->add_option("--told", options->told,
+                      "write what the window says to this file, a JSON object a line");
   on_run(command, code, [options] {
     const auto trained = train(*options);
     return trained ? ExitCode::ok : report_error(trained.error(), false);

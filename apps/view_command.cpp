@@ -91,6 +91,9 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
     return report_error(script.error(), false);
   const auto joint = load(options.session.joint, make_progress_printer(false));
   if (!joint) return report_error(joint.error(), false);
+  auto outside = read_outside(named_joint(options.session.joint));
+  if (!outside) return report_error(outside.error(), false);
+  window.outside = std::move(*outside);
   auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), false);
   params->image.doppler = true;

@@ -7,6 +7,7 @@ set(may_core "")
 set(may_anatomy/surfaces core)
 set(may_anatomy/body core)
 set(may_anatomy/source core anatomy/body)
+set(may_anatomy/outside core anatomy/surfaces anatomy/body anatomy/source)
 set(may_anatomy/compile/labels core anatomy/surfaces anatomy/body anatomy/source)
 set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/labels)
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
@@ -58,7 +59,7 @@ set(may_exchange/igtl core)
 set(may_exchange ${may_simulation} simulation dataset ${session} exchange/igtl)
 set(may_reports ${may_evidence} evidence evidence/runs viewer/words anatomy/surfaces anatomy/source anatomy/compile anatomy/compile/labels anatomy/compile/check
   anatomy/import)
-set(window ${may_simulation} simulation dataset ${session})
+set(window ${may_simulation} simulation dataset ${session} anatomy/surfaces anatomy/source anatomy/outside)
 set(may_viewer/words ${may_raycast} raycast)
 set(may_viewer/input ${window} viewer/words)
 set(may_viewer/joint3d ${may_viewer/input} viewer/input)
@@ -78,7 +79,7 @@ set(may_apps/sweep ${may_apps/options} apps/options)
 set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/import/atlas anatomy/label_maps apps/options)
 set(may_apps/hands ${may_apps/options} apps/options devices/kit)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import/volumes anatomy/import/cells anatomy/import anatomy/import/atlas anatomy/label_maps
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/outside anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import/volumes anatomy/import/cells anatomy/import anatomy/import/atlas anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate/solids meshes/generate devices/bridges devices/kit apps/hands apps/options apps/sweep apps apps/validate)
