@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "artus/detail/apps/hands_command.h"
@@ -10,7 +9,6 @@
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
-#include "artus/detail/apps/options/told_file.h"
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
@@ -18,6 +16,7 @@
 #include "artus/detail/trainer/flow.h"
 #include "artus/detail/trainer/hands_pages.h"
 #include "artus/detail/trainer/teacher_server.h"
+#include "artus/detail/trainer/told_file.h"
 #include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
@@ -33,10 +32,10 @@ struct TrainCommandOptions {
   std::filesystem::path records;
   std::filesystem::path attempts;
   TrainOptions train;
-  std::string hands;          // webcam, a file or a folder: the kit's camera
-  std::filesystem::path kit;  // its file
+  std::string hands;           // webcam, a file or a folder: the kit's camera
+  std::filesystem::path kit;   // its file
   std::filesystem::path told;  // what the window says, a line a time
-  std::string teacher;        // where a teacher's browser can look on
+  std::string teacher;         // where a teacher's browser can look on
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -168,6 +167,22 @@ Result<std::unique_ptr<TeacherServer>> open_teacher(const TrainCommandOptions& o
   return server;
 }
 
+/// Pages and windows that tell a file what they say; an empty path: nobody.
+Result<void> tell_to_file(const std::filesystem::path& file, PageOptions& pages,
+                          WindowOptions& window) {
+  if (file.empty()) return {};
+  auto opened = ToldFile::open(file);
+  ARTUS_TRY(opened);
+  const auto told = std::make_shared<ToldFile>(std::move(*opened));
+  pages.watch = [told](const Page& page) {
+    told->tell(page);
+  };
+  window.watch = [told](const WindowStatus& status) {
+    told->tell(status);
+  };
+  return {};
+}
+
 Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(take_places(options));
   PageScript script;
@@ -195,18 +210,7 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(keys);
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
-  std::optional<ToldFile> told;
-  if (!options.told.empty()) {
-    auto opened = ToldFile::open(options.told);
-    ARTUS_TRY(opened);
-    told.emplace(std::move(*opened));
-    pages.watch = [&told](const Page& page) {
-      told->tell(page);
-    };
-    options.window.watch = [&told](const WindowStatus& window) {
-      told->tell(window);
-    };
-  }
+  ARTUS_TRY(tell_to_file(options.told, pages, options.window));
   auto desk = open_desk(**screen, pages, options.records, options.attempts);
   ARTUS_TRY(desk);
   RemoteTurns turns;

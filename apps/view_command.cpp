@@ -58,9 +58,12 @@ std::string connect_hint(const SessionOptions& session, Language language) {
   return translate(language, "no device yet: artus view --input hand needs none");
 }
 
-/// Goals, starts, language and keys of the window.
+/// The person around the joint, goals, starts, language and keys of the window.
 Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& joint,
                             WindowOptions& window) {
+  auto outside = read_outside(named_joint(options.session.joint));
+  ARTUS_TRY(outside);
+  window.outside = std::move(*outside);
   const auto chosen = chosen_injection(options.session, joint);
   ARTUS_TRY(chosen);
   const auto plans = make_plan(options.session.plan, joint);
@@ -91,9 +94,6 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
     return report_error(script.error(), false);
   const auto joint = load(options.session.joint, make_progress_printer(false));
   if (!joint) return report_error(joint.error(), false);
-  auto outside = read_outside(named_joint(options.session.joint));
-  if (!outside) return report_error(outside.error(), false);
-  window.outside = std::move(*outside);
   auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), false);
   params->image.doppler = true;

@@ -63,10 +63,10 @@ struct TrainTask {
   Scenario scenario;  ///< with its aids as they are for this person
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const OutsideBody> outside = nullptr;  ///< the person around the joint
-  std::set<std::string> asked;    ///< steps that were answered before
-  KeyMap keys = KeyMap();         ///< that the window tells of
-  LedHand led = LedHand::none;    ///< the hand that goes a way of its own
-  std::vector<LedPose> way = {};  ///< which
+  std::set<std::string> asked;                           ///< steps that were answered before
+  KeyMap keys = KeyMap();                                ///< that the window tells of
+  LedHand led = LedHand::none;                           ///< the hand that goes a way of its own
+  std::vector<LedPose> way = {};                         ///< which
 };
 
 /// What came of it.

@@ -71,9 +71,9 @@ struct WindowOptions {
   Language language = Language::english;
   std::string keys;  ///< a file of keys as TOML; empty: the default keys
   bool left_handed = false;
-  bool plain = false;   ///< saved pictures without captions
-  std::string patient;  ///< a pseudonym
-  std::string connect;  ///< how a device that was never there is connected
+  bool plain = false;                          ///< saved pictures without captions
+  std::string patient;                         ///< a pseudonym
+  std::string connect;                         ///< how a device that was never there is connected
   std::shared_ptr<const OutsideBody> outside;  ///< the person around the joint; null: none
   std::vector<PlannedTask> tasks;
   std::size_t task = 0;  ///< of tasks, the goal at first

@@ -28,11 +28,11 @@ struct BodyLandmark {
 struct OutsideBody {
   SurfaceMesh skin;  ///< frame J, wound outward
   std::vector<BodyLandmark> landmarks;
-  std::vector<Vec3> right;            ///< where the right side is marked, frame J, m
-  std::vector<Vec3> left;             ///< likewise
-  std::vector<Support> supports;      ///< what the person is on
-  std::string posture;                ///< "sitting", "lying"
-  Vec3 up = Vec3::UnitZ();            ///< from feet to head, frame J
+  std::vector<Vec3> right;               ///< where the right side is marked, frame J, m
+  std::vector<Vec3> left;                ///< likewise
+  std::vector<Support> supports;         ///< what the person is on
+  std::string posture;                   ///< "sitting", "lying"
+  Vec3 up = Vec3::UnitZ();               ///< from feet to head, frame J
   std::optional<RegionOfInterest> hole;  ///< where the joint's own skin is the truth
 };
 

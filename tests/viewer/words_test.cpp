@@ -165,7 +165,8 @@ std::vector<std::string> names_in(const std::filesystem::path& joint,
 
 TEST(AnatomyNames, EveryBoneThatCanBeFeltHasAFrenchName) {
   for (const char* person : {"sitting.toml", "lying.toml"}) {
-    const auto names = names_in(test::source_dir() / "meshes" / "person" / person, {"[[landmark]]"});
+    const auto names =
+        names_in(test::source_dir() / "meshes" / "person" / person, {"[[landmark]]"});
     EXPECT_GT(names.size(), 12U) << person;
     for (const std::string& name : names)
       EXPECT_TRUE(known_name(Language::french, name) || name == "acromion" || name == "patella")

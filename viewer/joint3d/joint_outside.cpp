@@ -130,7 +130,7 @@ std::string JointView::felt_at(const Vec3& tip) const {
   return felt;
 }
 
-// From where the probe is, upright.
+// Upright, from the side on which the probe stands; where that is above, from that of the joint.
 unsigned JointView::overview() {
   if (!outside_) return 0;
   if (overview_drawn_) return overview_.texture();
@@ -145,7 +145,10 @@ unsigned JointView::overview() {
   const Vec3& up = outside_->up;
   Vec3 toward = -joint_->X_JP_default.linear().col(2);
   toward -= up.dot(toward) * up;
-  if (toward.norm() < 0.2) toward = outside_->up.unitOrthogonal();
+  if (toward.norm() < 0.5 && outside_->hole) {
+    toward = outside_->hole->centre - centre;
+    toward -= up.dot(toward) * up;
+  }
   constexpr double kAngle = 0.5;  // rad
   const double tall = std::abs((high - low).dot(up.cwiseAbs()));
   const Vec3 eye = centre + 1.15 * tall / (2 * std::tan(kAngle / 2)) * toward.normalized();

@@ -348,8 +348,7 @@ std::vector<ScreenLabel> JointView::labels(int width, int height) const {
   for (const Part& part : parts_) {
     const TissueLook& look = looks_[part.look];
     if (!look.visible || look.alpha < 0.3F || part.name.empty()) continue;
-    if (const auto label = on_screen(part.name, part.shown, width, height))
-      found.push_back(*label);
+    if (const auto label = on_screen(part.name, part.shown, width, height)) found.push_back(*label);
   }
   return found;
 }

@@ -183,7 +183,7 @@ void draw_person(const PanelInput& in, const ViewState& state, JointView& view, 
   for (const ScreenLabel& side : view.sides(width, height))
     outlined_text(list, ImVec2(at.x + side.x, at.y + side.y),
                   side.name == "R" ? translate_in(state.language, "side", "R")
-                                    : translate_in(state.language, "side", "L"));
+                                   : translate_in(state.language, "side", "L"));
   const float tall = 0.36F * room.y;
   const float wide = tall * JointView::kOverviewWidth / JointView::kOverviewHeight;
   if (wide > 0.4F * room.x) return;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The person around a joint: goes on from the joint's own skin, lies where it should, is refused with reasons.
+// The person around a joint: goes on from the joint's own skin, lies where it should, is refused
+// with reasons.
+#include "artus/detail/anatomy/outside/outside_body.h"
+
 #include <fstream>
 #include <string>
 #include <variant>
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/anatomy/outside/outside_body.h"
 #include "artus/detail/anatomy/surfaces/distance_tree.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/units.h"
@@ -37,8 +39,8 @@ TEST_P(PersonAround, GoesOnFromTheJointsOwnSkin) {
   const JointFile joint = bundled(GetParam());
   const OutsideBody body = person_around(joint);
   const DistanceTree skin(body.skin);
-  const auto own =
-      read_surface(joint.surface_folder / std::get<SurfaceFile>(joint.body.shape).file, kMillimetre);
+  const auto own = read_surface(joint.surface_folder / std::get<SurfaceFile>(joint.body.shape).file,
+                                kMillimetre);
   ASSERT_TRUE(own);
   const RegionOfInterest& region = *joint.region_of_interest;
   int near = 0;
@@ -73,7 +75,7 @@ TEST_P(PersonAround, HoldsItsBonesAndMarksItsSides) {
 
 INSTANTIATE_TEST_SUITE_P(Bundled, PersonAround,
                          testing::Values("shoulder", "elbow", "wrist", "hip", "knee", "ankle"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& joint) { return std::string(joint.param); });
 
 TEST(OutsideBody, IsTheMirrorImageForAJointOfTheOtherSide) {
   JointFile joint = bundled("knee");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/apps/options/told_file.h"
+#include "artus/detail/trainer/told_file.h"
 
 #include <cmath>
 #include <utility>
