@@ -37,8 +37,8 @@ inline constexpr const char* kPictureFragment = R"(#version 330 core
 in vec2 uv; uniform sampler2D image; out vec4 result;
 void main() { result = vec4(texture(image, uv).rgb, 1.0); })";
 
-// The person around the joint: smooth, open where the joint's own skin is and where it stands
-// before it; `marked`: closed, with that place in another colour.
+// The person around the joint: smooth, open where the joint's own skin is and where something else
+// of it stands before that; `marked`: closed, with that place in another colour.
 inline constexpr const char* kPersonVertex = R"(#version 330 core
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
 uniform mat4 view;
@@ -55,7 +55,8 @@ void main() {
   vec3 way = place - eye.xyz;
   vec3 ray = normalize(way);
   float along = dot(hole.xyz - eye.xyz, ray);
-  bool before = length(way) < along && length(hole.xyz - eye.xyz - along * ray) < hole.w;
+  bool before = length(way) < along && length(hole.xyz - eye.xyz - along * ray) < hole.w &&
+                length(local) > 2.0 * hole.w;
   if (marked == 0 && (own || before)) discard;
   vec3 base = own ? vec3(1.0, 0.55, 0.1) : colour.rgb;
   float facing = abs(dot(normalize(out_of_skin), ray));
