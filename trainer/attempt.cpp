@@ -56,8 +56,8 @@ Result<bool> show(const TrainContext& room, const TrainTask& task, TrainLesson& 
     room.turns->take(controls);
   };
   WindowReport report;
-  const auto shown = run_window(*room.screen, session, hand,
-                                first_hands(task.scenario, *task.scene), window, report);
+  const auto shown =
+      run_window(*room.screen, session, hand, first_hands(task.scenario), window, report);
   if (teacher) {
     room.teacher->tell({});
     out.seen_by_teacher = teacher->events();
@@ -78,8 +78,7 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
     ARTUS_TRY(other);
     device = std::move(*other);
   } else {
-    auto own = std::make_unique<HandDevice>(first_hands(task.scenario, *task.scene),
-                                            1 / params.haptic_rate);
+    auto own = std::make_unique<HandDevice>(first_hands(task.scenario), 1 / params.haptic_rate);
     hand = own.get();
     device = std::move(own);
   }

@@ -251,7 +251,7 @@ std::string step_words(Language language, const std::string& step) {
   return step;
 }
 
-HandTarget first_hands(const Scenario& scenario, const Scene& scene) {
+HandTarget first_hands(const Scenario& scenario) {
   constexpr double kAbove = 15e-3;  // m of the tip from the entry
   constexpr int kAimed = 1;         // the highest level that begins in the plane
   const Vec3 direction = scenario.find.empty()
@@ -263,10 +263,6 @@ HandTarget first_hands(const Scenario& scenario, const Scene& scene) {
     constexpr double kBack = 4e-3;    // m
     tip += kBeside * scenario.X_JP.linear().col(1) - kBack * direction;
   }
-  // Where the region of the joint ends nobody knows whether there is a limb.
-  constexpr double kStep = 2e-3;  // m
-  for (double back = kAbove; back > 2 * kStep && scene.region_at(tip) != kOutside; back -= kStep)
-    tip += kStep * direction;
   HandTarget target;
   target.has_needle = scenario.find.empty() ? 1 : 0;
   target.X_WN = to_plain(make_pose(tip, direction, Vec3::Zero()));

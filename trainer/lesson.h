@@ -79,7 +79,7 @@ class TrainLesson {
 
 /// Where both hands stand at first: the probe at the scenario's view; the needle over its entry and
 /// along the planned way, from level 2 on 6 mm beside the plane and 4 mm back, so that who does not
-/// look misses it (assumed). Nearer where the body beyond the joint's region might be.
-[[nodiscard]] HandTarget first_hands(const Scenario& scenario, const Scene& scene);
+/// look misses it (assumed).
+[[nodiscard]] HandTarget first_hands(const Scenario& scenario);
 
 }  // namespace artus

@@ -228,9 +228,7 @@ TEST(TrainTask, TheHandsBeginOffTheSkinAndFromLevelTwoOnBesideThePlane) {
   for (const char* name : {"gel-find", "gel-align"}) {
     const auto scenario = find_scenario(name);
     ASSERT_TRUE(scenario);
-    const auto scene = make_gel_scene(*scenario->gel);
-    ASSERT_TRUE(scene);
-    const HandTarget hands = first_hands(*scenario, **scene);
+    const HandTarget hands = first_hands(*scenario);
     const Vec3 tip_P = scenario->X_JP.inverse() * to_pose(hands.X_WN).translation();
     EXPECT_LT(tip_P.z(), -1e-3) << name;
     EXPECT_NEAR(tip_P.y(), scenario->level >= 2 ? 6e-3 : 0, 1e-9) << name;
@@ -265,7 +263,7 @@ TEST(TrainTask, ALookingTaskAsksForOneAfterAnotherAndEndsByItself) {
   const auto scene = make_gel_scene(*scenario->gel);
   const auto params = make_session_params(*scenario);
   ASSERT_TRUE(scene && params);
-  EXPECT_EQ(first_hands(*scenario, **scene).has_needle, 0U);
+  EXPECT_EQ(first_hands(*scenario).has_needle, 0U);
   TrainLesson lesson(*scenario, *scene, *params, {}, Language::english);
   std::uint64_t tick = 0;
   Lesson told;
