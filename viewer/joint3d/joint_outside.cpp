@@ -69,6 +69,7 @@ void JointView::draw_outside(const Eigen::Matrix4f& view, const Vec3& eye, bool 
   person_->set("hole", hole);
   person_->set("half_extent", half);
   person_->set("marked", marked ? 1 : 0);
+  person_->set("opened", cut_away ? 1 : 0);
   person_->set("colour", kSkinColour);
   skin_.draw_triangles();
   solid_.use();
