@@ -324,8 +324,7 @@ std::string praise(const AttemptMeasures& m, const Judgement& judgement,
 /// Which skill is the weakest, by this attempt and those before.
 std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext& context) {
   constexpr std::size_t kSkills = 5;
-  std::array<double, kSkills> clean{};
-  std::array<double, kSkills> count{};
+  std::array<double, kSkills> clean{}, count{};
   const auto add = [&](const PastAttempt& attempt) {
     std::array<bool, kSkills> faulty{};
     for (const std::string& kind : attempt.kinds)
@@ -349,25 +348,19 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
   return weakest;
 }
 
-/// A skill's task: what to do, and the scenario for it.
 struct SkillTask {
   const char* what;
   const char* scenario;
 };
+/// A skill's task: what to do, and the scenario for it.
 SkillTask task_of(Skill skill) {
-  switch (skill) {
-    case Skill::look:
-      return {"Find the structures in the gel block with the probe (gel-look).", "gel-look"};
-    case Skill::view:
-      return {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"};
-    case Skill::align:
-      return {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"};
-    case Skill::steer:
-      return {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"};
-    case Skill::inject:
-      break;
-  }
-  return {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""};
+  constexpr std::array<SkillTask, 5> kTasks{
+      {{"Find the structures in the gel block with the probe (gel-look).", "gel-look"},
+       {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"},
+       {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"},
+       {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"},
+       {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""}}};
+  return kTasks.at(static_cast<std::size_t>(skill));
 }
 
 SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
@@ -436,7 +429,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   now.injected = value_of(measures, "given_ml") > kGiven;
   now.looked = !measures.sought.empty();
   for (Fault& fault : out.faults) {
-    now.kinds.push_back(fault.kind);
+    if (fault.kind != "unasked") now.kinds.push_back(fault.kind);  // no skill of the hands
     if (context.before.empty()) continue;
     const auto& last = context.before.back().kinds;
     const std::string kind =
