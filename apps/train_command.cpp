@@ -16,6 +16,7 @@
 #include "artus/detail/trainer/flow.h"
 #include "artus/detail/trainer/hands_pages.h"
 #include "artus/detail/trainer/teacher_server.h"
+#include "artus/detail/trainer/told_file.h"
 #include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
@@ -31,9 +32,10 @@ struct TrainCommandOptions {
   std::filesystem::path records;
   std::filesystem::path attempts;
   TrainOptions train;
-  std::string hands;          // webcam, a file or a folder: the kit's camera
-  std::filesystem::path kit;  // its file
-  std::string teacher;        // where a teacher's browser can look on
+  std::string hands;           // webcam, a file or a folder: the kit's camera
+  std::filesystem::path kit;   // its file
+  std::filesystem::path told;  // what the window says, a line a time
+  std::string teacher;         // where a teacher's browser can look on
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -165,6 +167,22 @@ Result<std::unique_ptr<TeacherServer>> open_teacher(const TrainCommandOptions& o
   return server;
 }
 
+/// Pages and windows that tell a file what they say; an empty path: nobody.
+Result<void> tell_to_file(const std::filesystem::path& file, PageOptions& pages,
+                          WindowOptions& window) {
+  if (file.empty()) return {};
+  auto opened = ToldFile::open(file);
+  ARTUS_TRY(opened);
+  const auto told = std::make_shared<ToldFile>(std::move(*opened));
+  pages.watch = [told](const Page& page) {
+    told->tell(page);
+  };
+  window.watch = [told](const WindowStatus& status) {
+    told->tell(status);
+  };
+  return {};
+}
+
 Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(take_places(options));
   PageScript script;
@@ -192,6 +210,7 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(keys);
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
+  ARTUS_TRY(tell_to_file(options.told, pages, options.window));
   auto desk = open_desk(**screen, pages, options.records, options.attempts);
   ARTUS_TRY(desk);
   RemoteTurns turns;
@@ -296,6 +315,8 @@ void add_train_command(Command& app, ExitCode& code) {
   add_igtl_options(command, session.igtl);
   add_window_options(command, options->window, options->language);
   command->add_option("--script", options->script, "do what this file says, then end");
+  command->add_option("--told", options->told,
+                      "write what the window says to this file, a JSON object a line");
   on_run(command, code, [options] {
     const auto trained = train(*options);
     return trained ? ExitCode::ok : report_error(trained.error(), false);

@@ -58,9 +58,12 @@ std::string connect_hint(const SessionOptions& session, Language language) {
   return translate(language, "no device yet: artus view --input hand needs none");
 }
 
-/// Goals, starts, language and keys of the window.
+/// The person around the joint, goals, starts, language and keys of the window.
 Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& joint,
                             WindowOptions& window) {
+  auto outside = read_outside(named_joint(options.session.joint));
+  ARTUS_TRY(outside);
+  window.outside = std::move(*outside);
   const auto chosen = chosen_injection(options.session, joint);
   ARTUS_TRY(chosen);
   const auto plans = make_plan(options.session.plan, joint);

@@ -13,6 +13,7 @@ constexpr const char* kSentences[] = {
     msgid("entered a structure to avoid"),
     msgid("time until the needle was out"),
     msgid("the needle was left in the patient"),
+    msgid("the patient was not asked all that matters"),
     msgid("advanced without seeing the tip"),
     msgid("bone contacts"),
     msgid("distance from the target"),
@@ -35,6 +36,7 @@ constexpr const char* kSentences[] = {
     msgid("the tip was not seen"),
     msgid("the tip was {} mm deep at the end"),
     msgid("the time limit was over"),
+    msgid("{} of 100 of the task's questions were asked"),
     msgid("the tip was {} mm in front of the plane"),
     msgid("the tip was {} mm behind the plane"),
     msgid("the needle stood at {} degrees to the probe's face: {} dB lost to the angle"),
@@ -55,6 +57,7 @@ constexpr const char* kSentences[] = {
     msgid("the tip was in {}"),
     msgid("the thumb pushed with {} N at most"),
     // what to do
+    msgid("Ask before you begin: side, allergies, blood thinners, infections, consent."),
     msgid("Enter further from the probe, so that the needle lies flatter."),
     msgid("Choose a path that bone does not shadow."),
     msgid("Keep the whole face on the skin."),

@@ -51,6 +51,7 @@ Result<bool> show(const TrainContext& room, const TrainTask& task, TrainLesson& 
     };
   }
   window.patient = "";
+  window.outside = task.outside;
   window.turn_knobs = [&room](ImageControls& controls) {
     room.turns->take(controls);
   };

@@ -62,10 +62,11 @@ struct TrainTask {
   std::string person;
   Scenario scenario;  ///< with its aids as they are for this person
   std::shared_ptr<const Scene> scene;
-  std::set<std::string> asked;    ///< steps that were answered before
-  KeyMap keys = KeyMap();         ///< that the window tells of
-  LedHand led = LedHand::none;    ///< the hand that goes a way of its own
-  std::vector<LedPose> way = {};  ///< which
+  std::shared_ptr<const OutsideBody> outside = nullptr;  ///< the person around the joint
+  std::set<std::string> asked;                           ///< steps that were answered before
+  KeyMap keys = KeyMap();                                ///< that the window tells of
+  LedHand led = LedHand::none;                           ///< the hand that goes a way of its own
+  std::vector<LedPose> way = {};                         ///< which
 };
 
 /// What came of it.

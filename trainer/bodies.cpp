@@ -137,4 +137,9 @@ Result<std::shared_ptr<const Scene>> TrainBodies::scene(const Scenario& scenario
   return bodies_.at(key_of(scenario));
 }
 
+Result<std::shared_ptr<const OutsideBody>> TrainBodies::outside(const Scenario& scenario) const {
+  if (scenario.gel) return nullptr;
+  return read_outside(joint_.empty() ? scenario.body() : joint_);
+}
+
 }  // namespace artus

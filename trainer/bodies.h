@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "artus/detail/anatomy/outside/outside_body.h"
 #include "artus/detail/core/progress.h"
 #include "artus/detail/training/scenario.h"
 #include "artus/detail/viewer/pages/page.h"
@@ -49,6 +50,9 @@ class TrainBodies {
   [[nodiscard]] std::shared_ptr<const PagePicture> picture(const Scenario& scenario);
   /// Requires: ready. Errors: those of the loader.
   [[nodiscard]] Result<std::shared_ptr<const Scene>> scene(const Scenario& scenario);
+  /// The person around its joint; null: there is none, as around a block of gel. Errors: those of
+  /// read_outside.
+  [[nodiscard]] Result<std::shared_ptr<const OutsideBody>> outside(const Scenario& scenario) const;
 
  private:
   using Body = Result<std::shared_ptr<const Scene>>;

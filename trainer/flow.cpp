@@ -217,7 +217,7 @@ class TrainFlow {
     const auto there = prepare();
     ARTUS_TRY(there);
     if (*there != Prepared::there) return *there == Prepared::closed ? Next::leave : Next::what;
-    task_ = {person_, scenario_, scene_, {}, show_.options().keys, LedHand::none, {}};
+    task_ = {person_, scenario_, scene_, outside_, {}, show_.options().keys, LedHand::none, {}};
     auto outcome = show_.meanwhile(msgid("The attempt is being read ..."),
                                    [&] { return read_attempt(*room_.desk, task_, record); });
     ARTUS_TRY(outcome);
@@ -245,6 +245,9 @@ class TrainFlow {
     auto scene = bodies_.scene(scenario_);
     ARTUS_TRY(scene);
     scene_ = *scene;
+    auto outside = bodies_.outside(scenario_);
+    ARTUS_TRY(outside);
+    outside_ = std::move(*outside);
     follow_patient(scenario_, *scene_);
     return Prepared::there;
   }
@@ -286,6 +289,7 @@ class TrainFlow {
             person_,
             with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
             scene_,
+            outside_,
             asked_,
             show_.options().keys,
             LedHand::none,
@@ -299,7 +303,7 @@ class TrainFlow {
 
   /// What is taught of a task before it is judged.
   Result<Next> learn() {
-    task_ = {person_, scenario_, scene_, asked_, show_.options().keys, LedHand::none, {}};
+    task_ = {person_, scenario_, scene_, outside_, asked_, show_.options().keys, LedHand::none, {}};
     const auto after = learn_.step(task_);
     ARTUS_TRY(after);
     switch (*after) {
@@ -413,6 +417,7 @@ class TrainFlow {
   std::set<std::string> asked_;
   bool asked_for_ = false;
   std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const OutsideBody> outside_;  // around the scene's joint
   TrainTask task_;
   TrainOutcome outcome_;
 };

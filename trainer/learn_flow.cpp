@@ -56,6 +56,7 @@ Result<LearnFlow::After> LearnFlow::with_expert(LearnChoice chosen, TrainTask& t
   ARTUS_TRY(review);
   if (!*review) return After::leave;
   (*review)->of_expert = true;
+  (*review)->outside = task.outside;
   pages_->leave_screen();
   const auto back = run_review(pages_->screen(), pages_->options(), **review);
   ARTUS_TRY(back);

@@ -68,7 +68,7 @@ TrainLesson::TrainLesson(Scenario scenario, std::shared_ptr<const Scene> scene,
 void TrainLesson::say_calmly() {
   hurts_ = false;
   patient_ = translate(language_, scenario_.gel ? msgid("A gel block: it says nothing.")
-                                                : msgid("The patient lies still."));
+                                                : msgid("The patient keeps still."));
 }
 
 void TrainLesson::say(const char* what, double time, bool hurts) {

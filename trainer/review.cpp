@@ -183,6 +183,7 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
   auto made = make_run_review(task.scenario, task.scene, played.recording, language);
   ARTUS_TRY(made);
   Review review = std::move(*made);
+  review.outside = task.outside;
   show_missed(task.scenario, played.measures.sought, language, review);
   const auto expert = play(task.scenario, task.scene, expert_skill(), {});
   ARTUS_TRY(expert);

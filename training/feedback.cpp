@@ -34,6 +34,7 @@ constexpr Kind kPressure{"pressure_peak_kpa", 4, 100};
 constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
 constexpr double kLeftIn = 12;    // weight: the worst that a hand can leave behind
 constexpr double kLate = 3;       // weight
+constexpr double kUnasked = 9;    // weight: it endangers whatever the hands do
 constexpr double kNotFound = 6;   // weight: without a view there is no needle
 constexpr double kGiven = 0.1;    // ml from which something was injected
 constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
@@ -121,6 +122,12 @@ void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::v
       e != nullptr && missed(judgement, "withdrawn"))
     out.push_back({"left_in", e->time, kLeftIn, "the needle was left in the patient", e->text,
                    "Withdraw the needle before you end the attempt."});
+  if (missed(judgement, "asked"))
+    out.push_back(
+        {"unasked", m.course.empty() ? 0 : m.course.front().time, kUnasked,
+         "the patient was not asked all that matters",
+         printed("%.0f of 100 of the task's questions were asked", 100 * value_of(m, "asked")),
+         "Ask before you begin: side, allergies, blood thinners, infections, consent."});
   const JudgedMark* late = mark_of(judgement, "done_s");
   if (late != nullptr && late->value && !late->held)
     out.push_back({"late", late->mark.bound, kLate,
@@ -190,8 +197,8 @@ constexpr int kHarm = 2;
 constexpr int kDeadly = 3;
 int rank_of(const std::string& kind) {
   if (kind.rfind("fatal:", 0) == 0) return kDeadly;
-  constexpr std::array<const char*, 5> kHarms{"left_in", "misplaced", "unaspirated", "pressure",
-                                              "bone"};
+  constexpr std::array<const char*, 6> kHarms{"left_in",     "unasked",  "misplaced",
+                                              "unaspirated", "pressure", "bone"};
   if (kind.rfind("avoid:", 0) == 0 || std::find(kHarms.begin(), kHarms.end(), kind) != kHarms.end())
     return kHarm;
   return kind == "off_target" || kind == "unseen" || kind == "not_found" ? 1 : 0;
@@ -317,8 +324,7 @@ std::string praise(const AttemptMeasures& m, const Judgement& judgement,
 /// Which skill is the weakest, by this attempt and those before.
 std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext& context) {
   constexpr std::size_t kSkills = 5;
-  std::array<double, kSkills> clean{};
-  std::array<double, kSkills> count{};
+  std::array<double, kSkills> clean{}, count{};
   const auto add = [&](const PastAttempt& attempt) {
     std::array<bool, kSkills> faulty{};
     for (const std::string& kind : attempt.kinds)
@@ -342,25 +348,19 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
   return weakest;
 }
 
-/// A skill's task: what to do, and the scenario for it.
 struct SkillTask {
   const char* what;
   const char* scenario;
 };
+/// A skill's task: what to do, and the scenario for it.
 SkillTask task_of(Skill skill) {
-  switch (skill) {
-    case Skill::look:
-      return {"Find the structures in the gel block with the probe (gel-look).", "gel-look"};
-    case Skill::view:
-      return {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"};
-    case Skill::align:
-      return {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"};
-    case Skill::steer:
-      return {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"};
-    case Skill::inject:
-      break;
-  }
-  return {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""};
+  constexpr std::array<SkillTask, 5> kTasks{
+      {{"Find the structures in the gel block with the probe (gel-look).", "gel-look"},
+       {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"},
+       {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"},
+       {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"},
+       {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""}}};
+  return kTasks.at(static_cast<std::size_t>(skill));
 }
 
 SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
@@ -429,7 +429,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   now.injected = value_of(measures, "given_ml") > kGiven;
   now.looked = !measures.sought.empty();
   for (Fault& fault : out.faults) {
-    now.kinds.push_back(fault.kind);
+    if (fault.kind != "unasked") now.kinds.push_back(fault.kind);  // no skill of the hands
     if (context.before.empty()) continue;
     const auto& last = context.before.back().kinds;
     const std::string kind =

@@ -20,7 +20,7 @@ Result<void> run_window(Screen& screen, Session& session, HandDevice* hand, cons
                         const WindowOptions& options, WindowReport& report) {
   const GuiContext gui;
   auto joint = JointView::make(session.scene().shared_joint(), session.params().transducer.width,
-                               needle_length_of(session.params()));
+                               needle_length_of(session.params()), options.outside);
   ARTUS_TRY(joint);
   WindowLoop loop(screen.window(), std::move(*joint), session, hand, start, options);
   ARTUS_TRY(loop.prepare());

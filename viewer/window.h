@@ -2,11 +2,13 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/outside/outside_body.h"
 #include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/input/script.h"
 #include "artus/detail/viewer/joint3d/orbit_camera.h"
@@ -30,6 +32,9 @@ struct WindowStatus {
   std::string goal;
   std::string next;
   std::string message;
+  std::string task;                ///< a lesson's title; empty: there is none
+  std::vector<std::string> steps;  ///< of a lesson, those that are not done
+  std::string remark;              ///< of who looks on, as it stands there
   NeedleReading needle;
   Grab grab = Grab::nothing;
   GesturePhase phase = GesturePhase::exploring;
@@ -66,9 +71,10 @@ struct WindowOptions {
   Language language = Language::english;
   std::string keys;  ///< a file of keys as TOML; empty: the default keys
   bool left_handed = false;
-  bool plain = false;   ///< saved pictures without captions
-  std::string patient;  ///< a pseudonym
-  std::string connect;  ///< how a device that was never there is connected
+  bool plain = false;                          ///< saved pictures without captions
+  std::string patient;                         ///< a pseudonym
+  std::string connect;                         ///< how a device that was never there is connected
+  std::shared_ptr<const OutsideBody> outside;  ///< the person around the joint; null: none
   std::vector<PlannedTask> tasks;
   std::size_t task = 0;  ///< of tasks, the goal at first
   std::vector<ScriptStep> script;

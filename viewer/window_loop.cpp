@@ -341,6 +341,12 @@ WindowStatus WindowLoop::status() const {
   now.joint_points_sent = joint_->points_sent();
   now.has_image = input_.image != nullptr && input_.image->width > 0;
   for (const auto& [image, points] : state_.calipers) now.caliper_points += points.size();
+  if (state_.lesson != nullptr) {
+    now.task = state_.lesson->title;
+    now.remark = state_.lesson->remark;
+    for (const LessonStep& step : state_.lesson->steps)
+      if (!step.done) now.steps.push_back(step.text);
+  }
   now.frozen = session_.frozen();
   now.recording = state_.wants_clip;
   now.clip_seconds = saver_.clip_seconds();

@@ -154,15 +154,17 @@ Result<CompiledJoint> in_pose(CompiledJoint joint, const std::string& pose_name,
 
 }  // namespace
 
+std::filesystem::path named_joint(const JointOptions& options) {
+  return options.patient.empty() ? options.joint : with_patient(options.joint, options.patient);
+}
+
 Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
                                                   const Progress& progress) {
   LoadOptions load_options;
   load_options.surfaces = options.surfaces;
   load_options.cache = options.cache;
   load_options.compile.skip_refused = options.skip_refused;
-  auto joint = load_joint(
-      options.patient.empty() ? options.joint : with_patient(options.joint, options.patient),
-      load_options, progress);
+  auto joint = load_joint(named_joint(options), load_options, progress);
   ARTUS_TRY(joint);
   auto held = in_pose(std::move(*joint), options.pose, options.view);
   ARTUS_TRY(held);

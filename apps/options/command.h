@@ -56,6 +56,9 @@ struct JointOptions {
 void add_patient_option(Command* command, std::string& patient);
 void add_joint_options(Command* command, JointOptions& options);
 
+/// The joint with its patient, as load_joint takes it.
+[[nodiscard]] std::filesystem::path named_joint(const JointOptions& options);
+
 /// Loads a compiled file, or compiles a joint folder (kept for the next time), in its pose, its
 /// default probe where its view has it.
 [[nodiscard]] Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,

@@ -16,6 +16,7 @@
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/leg_measures.h"
+#include "artus/detail/meshes/generate/person.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
@@ -63,6 +64,7 @@ std::vector<artus::Solid> solids_of(const Options& options) {
   if (options.joint == "elbow") return make_elbow(sized<artus::ElbowSize>(options));
   if (options.joint == "wrist") return make_wrist(sized<artus::WristSize>(options));
   if (options.joint == "ankle") return make_ankle(sized<artus::AnkleSize>(options));
+  if (options.joint == "person") return artus::make_person();
   return make_simple_shoulder(sized<artus::SimpleShoulderSize>(options));
 }
 
@@ -108,10 +110,11 @@ int run(int argc, char** argv) {
   CLI::App app("Writes the surfaces of a bundled joint as PLY files in millimetres.");
   Options options;
   app.add_option("joint", options.joint,
-                 "simple-shoulder, shoulder, elbow, wrist, hip, knee or ankle")
+                 "simple-shoulder, shoulder, elbow, wrist, hip, knee or ankle; person: the skin of "
+                 "the person around them")
       ->required()
-      ->check(
-          CLI::IsMember({"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}));
+      ->check(CLI::IsMember(
+          {"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "person"}));
   auto* out = app.add_option("--out", options.out, "folder for the PLY files, made when missing");
   auto* measures = app.add_option("--measures", options.measures,
                                   "in place of it: lengths of the joint beside published ones");

@@ -15,6 +15,7 @@
 #include "artus/detail/meshes/generate/elbow.h"
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/person.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/simple_shoulder.h"
 #include "artus/detail/meshes/generate/wrist.h"
@@ -49,6 +50,7 @@ std::vector<Bundled> read_bundled() {
   add("elbow", make_elbow({}));
   add("wrist", make_wrist({}));
   add("ankle", make_ankle({}));
+  add("person", make_person());
   return all;
 }
 

@@ -180,6 +180,11 @@ TEST(ScenarioVerdicts, WhoDoesNotAskDoesNotPassWhereTheTaskSaysSo) {
   EXPECT_FALSE(judged.passed);
   EXPECT_LE(judged.score, kDangerScore);
   EXPECT_DOUBLE_EQ(find_metric(m.metrics, "asked")->value.value_or(0), 0.4);
+  const Feedback told = make_feedback(m, judged);
+  ASSERT_FALSE(told.faults.empty());
+  EXPECT_EQ(told.faults.front().kind, "unasked") << "told first of all";
+  EXPECT_EQ(told.faults.front().cause, "40 of 100 of the task's questions were asked");
+  EXPECT_TRUE(told.good.empty()) << "danger is not praised";
   std::vector<Metric> none;
   add_asked(*find_scenario("gel-align"), {}, none);
   EXPECT_TRUE(none.empty()) << "a block is asked nothing";

@@ -148,18 +148,30 @@ TEST(SystemWords, EverythingThatTheSessionTellsIsInTheTable) {
   EXPECT_GE(n, 15U);
 }
 
-/// The names of the structures and injections of a joint file.
-std::vector<std::string> names_in(const std::filesystem::path& joint) {
+/// The names of the tables of these kinds in a file.
+std::vector<std::string> names_in(const std::filesystem::path& joint,
+                                  const std::set<std::string>& kinds) {
   std::vector<std::string> names;
   std::ifstream in(joint);
   bool wanted = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.rfind("[[", 0) == 0) wanted = line == "[[structure]]" || line == "[[injection]]";
+    if (line.rfind("[[", 0) == 0) wanted = kinds.count(line) != 0;
     if (!wanted || line.rfind("name = \"", 0) != 0) continue;
     names.push_back(line.substr(8, line.rfind('"') - 8));
     wanted = false;
   }
   return names;
+}
+
+TEST(AnatomyNames, EveryBoneThatCanBeFeltHasAFrenchName) {
+  for (const char* person : {"sitting.toml", "lying.toml"}) {
+    const auto names =
+        names_in(test::source_dir() / "meshes" / "person" / person, {"[[landmark]]"});
+    EXPECT_GT(names.size(), 12U) << person;
+    for (const std::string& name : names)
+      EXPECT_TRUE(known_name(Language::french, name) || name == "acromion" || name == "patella")
+          << name;
+  }
 }
 
 TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
@@ -168,7 +180,8 @@ TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
                                     "radius",    "ulna",      "talus"};
   for (const char* joint :
        {"simple-shoulder", "shoulder", "real-shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
-    const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml");
+    const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml",
+                                {"[[structure]]", "[[injection]]"});
     EXPECT_GT(names.size(), 5U) << joint;
     for (const std::string& name : names) {
       if (alike.count(name) == 0) {

@@ -75,12 +75,14 @@ GlMesh::~GlMesh() {
   if (array_ == 0) return;
   glDeleteVertexArrays(1, &array_);
   glDeleteBuffers(1, &points_);
+  if (normals_ != 0) glDeleteBuffers(1, &normals_);
   glDeleteBuffers(1, &indices_);
 }
 
 GlMesh::GlMesh(GlMesh&& other) noexcept
     : array_(other.array_),
       points_(other.points_),
+      normals_(other.normals_),
       indices_(other.indices_),
       n_points_(other.n_points_),
       n_indices_(other.n_indices_) {
@@ -92,6 +94,16 @@ void GlMesh::set_points(std::span<const Eigen::Vector3f> points) {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size_bytes()), points.data(),
                GL_DYNAMIC_DRAW);
   n_points_ = static_cast<int>(points.size());
+}
+
+void GlMesh::set_normals(std::span<const Eigen::Vector3f> normals) {
+  glBindVertexArray(array_);
+  if (normals_ == 0) glGenBuffers(1, &normals_);
+  glBindBuffer(GL_ARRAY_BUFFER, normals_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(normals.size_bytes()), normals.data(),
+               GL_STATIC_DRAW);
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 void GlMesh::move_points(std::size_t first, std::span<const Eigen::Vector3f> points) {

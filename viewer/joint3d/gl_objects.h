@@ -44,6 +44,8 @@ class GlMesh {
   GlMesh& operator=(const GlMesh&) = delete;
 
   void set_points(std::span<const Eigen::Vector3f> points);
+  /// One a point, for shaders that ask for it.
+  void set_normals(std::span<const Eigen::Vector3f> normals);
   /// Others in the place of some from `first` on. Requires: they are there.
   void move_points(std::size_t first, std::span<const Eigen::Vector3f> points);
   void set_triangles(std::span<const std::uint32_t> indices);
@@ -56,6 +58,7 @@ class GlMesh {
  private:
   unsigned array_ = 0;
   unsigned points_ = 0;
+  unsigned normals_ = 0;
   unsigned indices_ = 0;
   int n_points_ = 0;
   int n_indices_ = 0;

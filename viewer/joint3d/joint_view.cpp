@@ -17,11 +17,14 @@ namespace artus {
 namespace {
 
 constexpr float kOpaque = 0.99F;
+constexpr double kFarthest = 4.0;  // m from the eye that is still drawn
 
 /// A plane that hides nothing.
 Eigen::Vector4f no_plane() {
   return {0, 0, 0, 1};
 }
+
+}  // namespace
 
 Eigen::Matrix4f look_at(const Vec3& eye, const Vec3& centre, const Vec3& up) {
   const Vec3 z = (eye - centre).normalized();
@@ -44,6 +47,8 @@ Eigen::Matrix4f perspective(double height_angle, double aspect, double near, dou
   m(3, 2) = -1;
   return m.cast<float>();
 }
+
+namespace {
 
 /// A body of revolution about z from 0 to 1: radius `bottom` at 0, `top` at 1.
 void set_frustum(GlMesh& mesh, float bottom, float top) {
@@ -96,13 +101,16 @@ float usual_alpha(TissueKind kind) {
 }  // namespace
 
 Result<std::unique_ptr<JointView>> JointView::make(std::shared_ptr<const CompiledJoint> joint,
-                                                   double probe_width, double needle_length) {
+                                                   double probe_width, double needle_length,
+                                                   std::shared_ptr<const OutsideBody> outside) {
   auto solid = GlProgram::make(kSolidVertex, kSolidFragment);
   ARTUS_TRY(solid);
   auto picture = GlProgram::make(kPictureVertex, kPictureFragment);
   ARTUS_TRY(picture);
-  return std::unique_ptr<JointView>(new JointView(std::move(joint), std::move(*solid),
-                                                  std::move(*picture), probe_width, needle_length));
+  std::unique_ptr<JointView> view(new JointView(std::move(joint), std::move(*solid),
+                                                std::move(*picture), probe_width, needle_length));
+  if (outside) ARTUS_TRY(view->show_outside(std::move(outside)));
+  return view;
 }
 
 JointView::JointView(std::shared_ptr<const CompiledJoint> joint, GlProgram solid, GlProgram picture,
@@ -340,13 +348,7 @@ std::vector<ScreenLabel> JointView::labels(int width, int height) const {
   for (const Part& part : parts_) {
     const TissueLook& look = looks_[part.look];
     if (!look.visible || look.alpha < 0.3F || part.name.empty()) continue;
-    Eigen::Vector4f p;
-    p << part.shown.cast<float>(), 1.F;
-    const Eigen::Vector4f q = view_ * p;
-    if (q.w() <= 0 || std::abs(q.x()) > q.w() || std::abs(q.y()) > q.w()) continue;
-    const ScreenLabel label{part.name, 0.5F * (1 + q.x() / q.w()) * static_cast<float>(width),
-                            0.5F * (1 - q.y() / q.w()) * static_cast<float>(height)};
-    found.push_back(label);
+    if (const auto label = on_screen(part.name, part.shown, width, height)) found.push_back(*label);
   }
   return found;
 }
@@ -361,7 +363,7 @@ void JointView::begin_picture(int width, int height, const JointScene& scene) {
   eye_ = c.centre +
          c.distance * (std::cos(c.pitch) * (std::sin(c.yaw) * c.side - std::cos(c.yaw) * forward) +
                        std::sin(c.pitch) * c.up);
-  making_view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, 2.0) *
+  making_view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, kFarthest) *
                  look_at(eye_, c.centre, c.up);
   const int share = DetailChooser::kPixels[detail_.level()];
   targets_[1 - shown_.value_or(1)].begin(width / share, height / share);
@@ -369,6 +371,7 @@ void JointView::begin_picture(int width, int height, const JointScene& scene) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   begin_sheets(no_plane());
   draw_tools(making_view_, scene);
+  draw_outside(making_view_, eye_, false);
   draw_trail(making_view_, scene.X_JN);
   if (scene.image != nullptr) draw_image(making_view_, *scene.image, scene.image_texture);
   if (scene.entry) draw_entry(making_view_, *scene.entry);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/detail/anatomy/outside/outside_body.h"
 #include "artus/detail/viewer/joint3d/body_shape.h"
 #include "artus/detail/viewer/joint3d/colours.h"
 #include "artus/detail/viewer/joint3d/gl_objects.h"
@@ -56,8 +57,10 @@ class JointView {
   static constexpr double kFirstTime = 150e-3;        ///< s, while nothing is shown yet
   static constexpr double kRequestedPicture = 50e-3;  ///< s that a picture may take in all
 
+  /// `outside`: the person around the joint; null: the joint stands alone.
   [[nodiscard]] static Result<std::unique_ptr<JointView>> make(
-      std::shared_ptr<const CompiledJoint> joint, double probe_width, double needle_length);
+      std::shared_ptr<const CompiledJoint> joint, double probe_width, double needle_length,
+      std::shared_ptr<const OutsideBody> outside = nullptr);
 
   /// Draws into a picture of its own, when anything in it moved since the last one, and returns the
   /// texture of the newest whole one; 0 before there is any. What takes longer than kRequestedTime
@@ -78,6 +81,17 @@ class JointView {
   /// Names of what is drawn and opaque enough to be seen, by the last picture's camera.
   [[nodiscard]] std::vector<ScreenLabel> labels(int width, int height) const;
 
+  /// Bones that can be felt, on the person's side that is seen, and the letters R and L of the
+  /// sides, by the last picture's camera. Empty without a person.
+  [[nodiscard]] std::vector<ScreenLabel> landmarks(int width, int height) const;
+  [[nodiscard]] std::vector<ScreenLabel> sides(int width, int height) const;
+  /// The bone that is felt where a needle's tip touches the skin; empty: none.
+  [[nodiscard]] std::string felt_at(const Vec3& tip) const;
+  /// The whole person with the joint's place in colour, drawn once; 0 without a person.
+  unsigned overview();
+  static constexpr int kOverviewWidth = 240;   ///< pixels
+  static constexpr int kOverviewHeight = 360;  ///< pixels
+
   std::vector<TissueLook>& looks() noexcept { return looks_; }
   OrbitCamera& camera() noexcept { return camera_; }
   bool cut_away = true;  ///< hide what lies before the image plane
@@ -86,6 +100,10 @@ class JointView {
  private:
   JointView(std::shared_ptr<const CompiledJoint> joint, GlProgram solid, GlProgram picture,
             double probe_width, double needle_length);
+  [[nodiscard]] Result<void> show_outside(std::shared_ptr<const OutsideBody> outside);
+  void draw_outside(const Eigen::Matrix4f& view, const Vec3& eye, bool marked);
+  [[nodiscard]] std::optional<ScreenLabel> on_screen(std::string name, const Vec3& p, int width,
+                                                     int height) const;
   /// What is named; without a name it has a look alone.
   struct Part {
     std::size_t look;
@@ -157,6 +175,11 @@ class JointView {
   GlMesh cone_;
   GlMesh quad_;
   GlMesh line_;
+  std::shared_ptr<const OutsideBody> outside_;
+  std::optional<GlProgram> person_;
+  GlMesh skin_;
+  GlTarget overview_;
+  bool overview_drawn_ = false;
   std::deque<Eigen::Vector3f> trail_;
   DetailChooser detail_{kRequestedPicture};
   std::vector<double> seen_;  // what decided how the last picture looks

@@ -75,6 +75,7 @@ struct PageOptions {
   double font_scale = 1;
   PageScript* script = nullptr;  ///< whose steps the pages take; null: a person is there
   std::function<bool()> asked_to_close;
+  std::function<void(const Page&)> watch = {};  ///< called at each look; may be empty
 };
 
 /// Shows pages on a screen, one after the other, until it is destroyed.

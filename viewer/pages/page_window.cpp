@@ -80,6 +80,7 @@ class PageWindow::Shown {
 
   void look() {
     if (page_.refresh) page_.refresh(page_);
+    if (options_.watch) options_.watch(page_);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float edge = 18 * gui_.scale();
     ImGui::SetNextWindowPos(ImVec2(0, 0));

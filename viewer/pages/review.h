@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/detail/anatomy/outside/outside_body.h"
 #include "artus/detail/simulation/records.h"
 #include "artus/detail/viewer/pages/page.h"
 
@@ -44,6 +45,7 @@ struct Review {
   std::string title;
   std::shared_ptr<const Scene> scene;
   SessionParams params;
+  std::shared_ptr<const OutsideBody> outside;  ///< the person around the joint; null: none
   ReviewFilm film;
   std::optional<ReviewFilm> expert;  ///< shown beside, from the moment at which its needle went in
   std::vector<ReviewFault> faults;   ///< in any order

@@ -102,7 +102,7 @@ class ReviewGui {
 
   [[nodiscard]] Result<bool> run() {
     auto joint = JointView::make(review_.scene->shared_joint(), review_.params.transducer.width,
-                                 needle_length_of(review_.params));
+                                 needle_length_of(review_.params), review_.outside);
     ARTUS_TRY(joint);
     joint_ = std::move(*joint);
     ARTUS_TRY(gui_.begin("review"));

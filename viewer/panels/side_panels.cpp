@@ -145,6 +145,54 @@ std::string what_is_in_hand(const PanelInput& in, const ViewState& state) {
   return fill(translate(state, held), {key(Action::push), key(Action::pull), key(Action::let_go)});
 }
 
+/// The bone that the needle's tip feels through the skin, or that the pointer is over.
+std::string felt_bone(const PanelInput& in, const JointView& view,
+                      const std::vector<ScreenLabel>& marks, const ImVec2& at, float reach) {
+  if (in.now.input.tick != 0 && in.now.input.device.has_needle != 0 && in.now.inserted == 0)
+    if (std::string felt = view.felt_at(to_pose(in.now.X_JN).translation()); !felt.empty())
+      return felt;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  std::string felt;
+  for (const ScreenLabel& mark : marks) {
+    const float distance = std::hypot(mouse.x - at.x - mark.x, mouse.y - at.y - mark.y);
+    if (distance > reach) continue;
+    reach = distance;
+    felt = mark.name;
+  }
+  return felt;
+}
+
+/// The bones that can be felt, the sides, and where on the person one is.
+void draw_person(const PanelInput& in, const ViewState& state, JointView& view, const ImVec2& at,
+                 const ImVec2& room) {
+  const unsigned person = view.overview();
+  if (person == 0) return;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const auto width = static_cast<int>(room.x);
+  const auto height = static_cast<int>(room.y);
+  const std::vector<ScreenLabel> marks = view.landmarks(width, height);
+  const std::string felt = felt_bone(in, view, marks, at, 12 * in.scale);
+  for (const ScreenLabel& mark : marks) {
+    const ImVec2 place(at.x + mark.x, at.y + mark.y);
+    list->AddCircleFilled(place, 3 * in.scale, to_imgui(kOutline));
+    list->AddCircleFilled(place, 2 * in.scale, to_imgui(kOverlay));
+    if (mark.name == felt)
+      outlined_text(list, ImVec2(place.x + 6 * in.scale, place.y - 8 * in.scale),
+                    clinical_name(state.language, felt));
+  }
+  for (const ScreenLabel& side : view.sides(width, height))
+    outlined_text(list, ImVec2(at.x + side.x, at.y + side.y),
+                  side.name == "R" ? translate_in(state.language, "side", "R")
+                                   : translate_in(state.language, "side", "L"));
+  const float tall = 0.36F * room.y;
+  const float wide = tall * JointView::kOverviewWidth / JointView::kOverviewHeight;
+  if (wide > 0.4F * room.x) return;
+  const ImVec2 corner(at.x + room.x - wide - 2, at.y + 2);
+  const ImVec2 end(corner.x + wide, corner.y + tall);
+  list->AddImage(to_imgui(person), corner, end, ImVec2(0, 1), ImVec2(1, 0));
+  list->AddRect(corner, end, to_imgui(kOutline));
+}
+
 }  // namespace
 
 void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, JointArea& area) {
@@ -170,7 +218,8 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, J
         std::clamp(camera.pitch + 0.01 * static_cast<double>(io.MouseDelta.y), -1.5, 1.5);
   }
   if (ImGui::IsItemHovered() && in.grab == Grab::nothing && io.MouseWheel != 0)
-    camera.distance = std::clamp(camera.distance * std::pow(0.9, io.MouseWheel), 0.03, 1.0);
+    camera.distance = std::clamp(camera.distance * std::pow(0.9, io.MouseWheel),
+                                 OrbitCamera::kNearest, OrbitCamera::kFarthest);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->PushClipRect(at, ImVec2(at.x + room.x, at.y + room.y), true);
   if (state.labels) {
@@ -179,6 +228,7 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, J
       names.push_back({clinical_name(state.language, label.name), label.x, label.y});
     draw_names(list, at, room, names);
   }
+  draw_person(in, state, view, at, room);
   const std::string said = what_is_in_hand(in, state);
   if (!said.empty()) {
     ImGui::PushTextWrapPos(0);
