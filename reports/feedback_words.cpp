@@ -14,6 +14,8 @@ constexpr const char* kSentences[] = {
     msgid("time until the needle was out"),
     msgid("the needle was left in the patient"),
     msgid("the patient was not asked all that matters"),
+    msgid("the needle was never in the patient"),
+    msgid("Put the tip on the skin beside the probe and advance it in the picture's plane."),
     msgid("advanced without seeing the tip"),
     msgid("bone contacts"),
     msgid("distance from the target"),

@@ -35,6 +35,7 @@ constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
 constexpr double kLeftIn = 12;    // weight: the worst that a hand can leave behind
 constexpr double kLate = 3;       // weight
 constexpr double kUnasked = 9;    // weight: it endangers whatever the hands do
+constexpr double kNeverIn = 8;    // weight: nothing else was tried
 constexpr double kNotFound = 6;   // weight: without a view there is no needle
 constexpr double kGiven = 0.1;    // ml from which something was injected
 constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
@@ -122,6 +123,13 @@ void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::v
       e != nullptr && missed(judgement, "withdrawn"))
     out.push_back({"left_in", e->time, kLeftIn, "the needle was left in the patient", e->text,
                    "Withdraw the needle before you end the attempt."});
+  const Metric* in_tissue = find_metric(m.metrics, "time_in_tissue_s");
+  if (in_tissue != nullptr && !(in_tissue->value.value_or(0) > 0) &&
+      missed(judgement, kOffTarget.metric))
+    out.push_back(
+        {"never_in", m.course.empty() ? 0 : m.course.back().time, kNeverIn,
+         "the needle was never in the patient", "",
+         "Put the tip on the skin beside the probe and advance it in the picture's plane."});
   if (missed(judgement, "asked"))
     out.push_back(
         {"unasked", m.course.empty() ? 0 : m.course.front().time, kUnasked,
@@ -201,7 +209,8 @@ int rank_of(const std::string& kind) {
                                               "unaspirated", "pressure", "bone"};
   if (kind.rfind("avoid:", 0) == 0 || std::find(kHarms.begin(), kHarms.end(), kind) != kHarms.end())
     return kHarm;
-  return kind == "off_target" || kind == "unseen" || kind == "not_found" ? 1 : 0;
+  return kind == "off_target" || kind == "never_in" || kind == "unseen" || kind == "not_found" ? 1
+                                                                                               : 0;
 }
 
 /// Whether the needle came where it should.

@@ -13,7 +13,7 @@ namespace artus {
 struct Fault {
   std::string kind;   ///< "fatal:<name>", "left_in", "late", "unseen", "bone", "avoid:<name>",
                       ///< "drift", "passes", "off_target", "angle", "idle", "misplaced",
-                      ///< "unaspirated", "pressure", "fast", "unasked"
+                      ///< "unaspirated", "pressure", "fast", "unasked", "never_in"
   double time = 0;    ///< s, of the moment to look at
   double weight = 0;  ///< severity of the kind times size beside its band, 0 to 3; half as much
                       ///< again for a fault of the attempt before, too

@@ -23,7 +23,7 @@ constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
 // Bone on screens: its line is seen at any slope, so it is rougher than its facets are. assumed,
 // from pictures in which it is as bright at 50 degrees as at 20
 constexpr double kCortexFacing = 25 * kDegree;  // rad, of the part that faces the beam
-constexpr double kCortexRough = 0.42;           // amplitude of the part that any slope returns
+constexpr double kCortexRough = 0.34;           // amplitude of the part that any slope returns
 // What a steep interface does to the one ray of a line the rest of an aperture does not meet there:
 // on screens it reflects and bends as one of this incidence at most, and bends less from the first
 // of these on, not at all from the second. assumed: twice the acceptance of an F/2 aperture off a

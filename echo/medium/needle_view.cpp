@@ -24,11 +24,11 @@ struct ScreenLevel {
 };
 constexpr std::array<ScreenLevel, 9> kPlainLevels{{{0, -7},
                                                    {5, -11},
-                                                   {10, -16.5},
-                                                   {15, -21},
-                                                   {20, -25},
-                                                   {30, -26.5},
-                                                   {50, -29.5},
+                                                   {10, -17.5},
+                                                   {15, -25.2},
+                                                   {20, -28.8},
+                                                   {30, -30.3},
+                                                   {50, -32.8},
                                                    {75, -35},
                                                    {90, -38}}};
 constexpr std::array<ScreenLevel, 3> kDimpledLevels{{{0, -7}, {10, -11}, {90, -22}}};

@@ -118,7 +118,7 @@ void expect_the_same_when_it_is_looked_at_again(TrainDesk desk, const AttemptRec
   const auto scenario = find_scenario(attempt.scenario);
   const auto scene = make_gel_scene(*scenario->gel);
   ASSERT_TRUE(scene);
-  const auto again = read_attempt(desk, {attempt.person, *scenario, *scene, {}}, finished->front());
+  const auto again = read_attempt(desk, {attempt.person, *scenario, *scene, {}, {}}, finished->front());
   ASSERT_TRUE(again) << again.error().to_string();
   EXPECT_TRUE(again->finished);
   EXPECT_EQ(again->played.judgement.passed, attempt.passed);
@@ -372,7 +372,7 @@ TEST(TrainTask, AReviewHasTheExpertsRunAndTheTruthOfEachMoment) {
   options.tissue_rate = 10;
   auto played = play(*scenario, *scene, novice_skill(), options);
   ASSERT_TRUE(played);
-  TrainTask task{"someone", *scenario, *scene, {}};
+  TrainTask task{"someone", *scenario, *scene, {}, {}};
   TrainOutcome outcome;
   outcome.played = std::move(*played);
   const auto review = make_review(task, outcome, Language::english);

@@ -58,6 +58,17 @@ TEST(Feedback, LiquidInTheWrongLayerIsToldWithLayerMomentAndHaste) {
   EXPECT_THAT(told.next, HasSubstr("half a ml"));  // the weakest skill
 }
 
+TEST(Feedback, ANeedleThatWasNeverInIsToldFirst) {
+  ScriptedHands hands;
+  hands.go(4, -5);
+  Judgement judgement;
+  judgement.marks.push_back({*parse_mark("distance_mm", "<= 2"), std::nullopt, false});
+  const Feedback told = make_feedback(hands.measure(), judgement);
+  ASSERT_FALSE(told.faults.empty());
+  EXPECT_EQ(told.faults.front().kind, "never_in");
+  EXPECT_THAT(told.faults.front().mend, HasSubstr("advance"));
+}
+
 TEST(Feedback, PressureAndHasteAreToldAtTheirPeaks) {
   ScriptedHands hands;
   hands.go(4, 23);

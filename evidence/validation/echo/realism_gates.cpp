@@ -65,14 +65,17 @@ void claim_shadow(Gate& gate, const cv::Mat& image, const std::vector<double>& s
                                       dark / static_cast<double>(shadow.size()), 0.05, ""));
 }
 
-/// Mean and deviation of the grey in a band along a shaft: the brightest of five pixels across it.
-Moments along_shaft(const cv::Mat& image, const ScreenNeedle& needle) {
+/// Mean and deviation of the grey along a shaft, the brightest of three pixels across its near
+/// wall, where muscle of a speed of sound (m/s) shows that.
+Moments along_shaft(const cv::Mat& image, const ScreenNeedle& needle, double speed) {
   std::vector<double> values;
   for (double along = needle.from; along < needle.to; along += 0.2e-3) {
-    const Vec3 p = needle.tip - along * needle.axis;
+    Vec3 p = needle.tip - along * needle.axis;
+    p.z() -= 0.5 * needle.view.shape.outer_diameter / std::abs(needle.axis.x());
+    p.z() *= kDisplaySpeedOfSound / speed;
     const PixelPoint at = needle.pixel_of(p);
     double most = 0;
-    for (int k = -2; k <= 2; ++k) {
+    for (int k = -1; k <= 1; ++k) {
       const int x = static_cast<int>(std::lround(at.x));
       const int y = static_cast<int>(std::lround(at.y)) + k;
       if (x < 0 || y < 0 || x >= image.cols || y >= image.rows) continue;
@@ -83,18 +86,21 @@ Moments along_shaft(const cv::Mat& image, const ScreenNeedle& needle) {
   return moments_of(values);
 }
 
-/// Contrast of the shaft: its grey over the same place's without it, in deviations of that.
+/// Contrast of the shaft: its grey over the same muscle's without it, in deviations of that.
 double contrast(double degrees, cv::Mat& picture) {
   const ScreenNeedle needle = make_screen_needle(degrees * kDegree);
   const auto scene = needle_scene();
-  Renderer renderer(scene, Transducer{}, screen_settings());
+  ImageSettings settings = screen_settings();
+  settings.texture = false;  // the source's phantom is even
+  Renderer renderer(scene, Transducer{}, settings);
   const cv::Mat without = grey_image(renderer.render(Pose::Identity())).clone();
   picture = grey_image(renderer.render(Pose::Identity(), needle.view)).clone();
   const cv::Rect around(picture.cols / 2 - 60, 120, 120, 100);
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(without(around), mean, deviation);
-  return (along_shaft(picture, needle).mean - mean[0]) / deviation[0];
+  const double speed = scene->joint().tissue_of(kFirstRegion).acoustic.speed_of_sound;
+  return (along_shaft(picture, needle, speed).mean - mean[0]) / deviation[0];
 }
 
 }  // namespace
