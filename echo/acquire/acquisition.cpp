@@ -131,7 +131,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
           light_.apply(l, line);
         else
           spread_.apply(l, line);
-        add_penumbra(view.probe, shape_->sample_depth(), frame.shadow_from, l, line);
+        add_penumbra(view.probe, shape_->sample_depth(), frame.shadow_from, l, line, on_screen);
       };
       dim(echoes);
       for_more(l, dim);

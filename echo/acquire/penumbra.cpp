@@ -56,7 +56,8 @@ class Horizon {
 }  // namespace
 
 void add_penumbra(const Transducer& transducer, double sample_depth,
-                  std::span<const float> shadow_from, int l, EchoSpan line) noexcept {
+                  std::span<const float> shadow_from, int l, EchoSpan line,
+                  bool to_the_end) noexcept {
   const int reach = static_cast<int>(std::ceil(0.5 * transducer.max_aperture / transducer.pitch()));
   const int first = std::max(0, l - reach);
   const int last = std::min(static_cast<int>(shadow_from.size()), l + reach + 1);
@@ -78,6 +79,10 @@ void add_penumbra(const Transducer& transducer, double sample_depth,
   apply_ramp<double>(
       {begin, std::min(line.size(), begin + strides * kPenumbraStride), kPenumbraStride}, gain_at,
       [&](std::size_t i, float gain) { scale_sample(line, i, gain); });
+  if (!to_the_end) return;
+  const auto last_gain = static_cast<float>(gain_at(begin + strides * kPenumbraStride));
+  for (std::size_t i = begin + strides * kPenumbraStride; i < line.size(); ++i)
+    scale_sample(line, i, last_gain);
 }
 
 }  // namespace artus

@@ -118,7 +118,8 @@ void expect_the_same_when_it_is_looked_at_again(TrainDesk desk, const AttemptRec
   const auto scenario = find_scenario(attempt.scenario);
   const auto scene = make_gel_scene(*scenario->gel);
   ASSERT_TRUE(scene);
-  const auto again = read_attempt(desk, {attempt.person, *scenario, *scene, {}, {}}, finished->front());
+  const auto again =
+      read_attempt(desk, {attempt.person, *scenario, *scene, {}, {}}, finished->front());
   ASSERT_TRUE(again) << again.error().to_string();
   EXPECT_TRUE(again->finished);
   EXPECT_EQ(again->played.judgement.passed, attempt.passed);
