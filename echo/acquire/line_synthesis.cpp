@@ -23,7 +23,7 @@ constexpr double kHaze = 0.1;  // assumed: -20 dB at the face, +6 for both order
 constexpr double kCortex = 1.01e-3;      // m thick with the pulse, at the display's speed
 constexpr double kCortexStep = 0.8;      // of the pulse's length
 constexpr double kCortexEven = 0.3;      // of its thickness that is as bright as its surface
-constexpr double kCortexFall = 3.6;      // Np over the rest
+constexpr double kCortexFall = 2.7;      // Np over the rest
 constexpr double kCortexGlitter = 0.2;   // rms unevenness
 constexpr double kCortexSlope = 0.65;    // power of the cosine by which it is deeper
 constexpr double kCortexBeam = 0.85;     // of the beam's width, which a slope has seen already
@@ -318,7 +318,7 @@ void LineSynthesis::add_cortex(const BeamEcho& echo, const PlaneView& view, Echo
   const double cosine = std::max(kSteepestCortex, echo.cosine);
   const double width = shape_->profile().lateral_width(echo.sample * shape_->sample_depth());
   const double length =
-      std::max(0.9 * static_cast<double>(cortex_step_),  // one echo
+      std::max(0.5 * static_cast<double>(cortex_step_),  // one echo
                cortex_ / std::pow(cosine, kCortexSlope) -
                    kCortexBeam * std::sqrt(1 - cosine * cosine) * width / shape_->sample_depth());
   const double rise = view.cortex_rise;

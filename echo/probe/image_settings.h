@@ -37,7 +37,7 @@ enum class MotionShown : std::uint32_t {
 /// see grey_curve_file.h.
 struct GreyCurve {
   static constexpr std::size_t kKnots = 9;
-  std::array<double, kKnots> grey{0.02, 0.075, 0.175, 0.345, 0.59, 0.785, 0.885, 0.955, 1.0};
+  std::array<double, kKnots> grey{0.02, 0.075, 0.175, 0.335, 0.565, 0.785, 0.885, 0.955, 1.0};
   friend bool operator==(const GreyCurve&, const GreyCurve&) = default;
 };
 

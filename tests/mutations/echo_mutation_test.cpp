@@ -40,7 +40,7 @@ EchoSetup small_picture() {
   setup.image.pixel = 0.4e-3;
   setup.image.n_threads = 1;
   // far enough apart that each can rise and fall
-  setup.image.grey_curve.grey = {0.02, 0.075, 0.175, 0.345, 0.59, 0.785, 0.825, 0.875, 0.95};
+  setup.image.grey_curve.grey = {0.02, 0.075, 0.175, 0.335, 0.565, 0.785, 0.825, 0.875, 0.95};
   setup.image.texture = false;  // most of a small picture's time, and made anew for each change
   return setup;
 }

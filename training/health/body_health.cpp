@@ -150,7 +150,9 @@ class Examination {
                     ""};
     if (!q_.pictures) return m;
     const auto share = [&](const std::shared_ptr<const Scene>& scene) {
-      Renderer renderer(scene, q_.transducer, q_.settings);
+      ImageSettings settings = q_.settings;
+      settings.look = Look::raw;  // what steep walls do to a single ray, which other looks even out
+      Renderer renderer(scene, q_.transducer, settings);
       return 100 * share_of_strips(renderer.render(q_.X_JP), q_.transducer.pitch());
     };
     const double was = share(q_.before);
