@@ -54,8 +54,7 @@ double value_of(const AttemptMeasures& m, const char* name) {
 /// ml beside the target; 0 where the target is no structure.
 double misplaced_ml(std::span<const Metric> metrics) {
   const Metric* hit = find_metric(metrics, "in_target");
-  if (hit == nullptr || !hit->value) return 0;
-  return value_of(metrics, "given_ml") * (1 - *hit->value);
+  return hit != nullptr && hit->value ? value_of(metrics, "given_ml") * (1 - *hit->value) : 0;
 }
 
 /// mm advanced without seeing a tip that the picture could have shown: who enters beside it as
@@ -71,10 +70,8 @@ const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
   double entry = value_of(m.metrics, "unseen_entry_mm");
   for (const AttemptEvent& e : m.events) {
     if (e.kind != "unseen") continue;
-    if (e.value - entry > max) {
-      worst = &e;
-      max = e.value - entry;
-    }
+    if (e.value - entry > max) worst = &e;
+    max = std::max(max, e.value - entry);
     entry = 0;
   }
   return worst;
@@ -123,9 +120,7 @@ void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::v
       e != nullptr && missed(judgement, "withdrawn"))
     out.push_back({"left_in", e->time, kLeftIn, "the needle was left in the patient", e->text,
                    "Withdraw the needle before you end the attempt."});
-  const Metric* in_tissue = find_metric(m.metrics, "time_in_tissue_s");
-  if (in_tissue != nullptr && !(in_tissue->value.value_or(0) > 0) &&
-      missed(judgement, kOffTarget.metric))
+  if (!(value_of(m, "time_in_tissue_s") > 0) && missed(judgement, kOffTarget.metric))
     out.push_back(
         {"never_in", m.course.empty() ? 0 : m.course.back().time, kNeverIn,
          "the needle was never in the patient", "",
@@ -165,17 +160,13 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   const double unseen = unseen_mm(m.metrics);
   if (const AttemptEvent* e = worst_unseen(m); e != nullptr && unseen > kUnseen.band) {
     const bool on_bone = bone != nullptr && bone->time >= e->time && bone->time < e->time + 3;
-    Fault fault{"unseen",
-                e->time,
-                weight_of(kUnseen, unseen),
-                beside("advanced without seeing the tip", unseen, "mm", kUnseen.band),
-                e->text,
-                mend_of_unseen(e->text)};
+    out.push_back({"unseen", e->time, weight_of(kUnseen, unseen),
+                   beside("advanced without seeing the tip", unseen, "mm", kUnseen.band), e->text,
+                   mend_of_unseen(e->text)});
     if (on_bone) {
-      fault.what += ", and onto bone";
+      out.back().what += ", and onto bone";
       bone = nullptr;  // one cause, one fault
     }
-    out.push_back(std::move(fault));
   }
   if (bone != nullptr)
     out.push_back({"bone", bone->time, weight_of(kBone, value_of(m, kBone.metric)),

@@ -12,8 +12,6 @@
 namespace artus {
 namespace {
 
-const Eigen::Vector4f kSkinColour(0.93F, 0.76F, 0.65F, 1.F);
-const Eigen::Vector4f kSupportColour(0.25F, 0.30F, 0.36F, 1.F);
 constexpr double kUsualDistance = 0.36;  // m from which a joint is seen with what is around it
 
 std::vector<Eigen::Vector3f> in_floats(const std::vector<Vec3>& points) {
@@ -70,13 +68,13 @@ void JointView::draw_outside(const Eigen::Matrix4f& view, const Vec3& eye, bool 
   person_->set("half_extent", half);
   person_->set("marked", marked ? 1 : 0);
   person_->set("opened", cut_away ? 1 : 0);
-  person_->set("colour", kSkinColour);
+  person_->set("colour", Eigen::Vector4f(0.93F, 0.76F, 0.65F, 1));
   skin_.draw_triangles();
   solid_.use();
   for (const Support& box : outside_->supports) {
     Eigen::Matrix4d model = (box.X_JS * Eigen::Translation3d(0, 0, box.half.z())).matrix();
     for (int i = 0; i < 3; ++i) model.col(i) *= 2 * box.half[i];
-    draw_mesh(box_, view, model.cast<float>(), kSupportColour, true);
+    draw_mesh(box_, view, model.cast<float>(), Eigen::Vector4f(0.25F, 0.30F, 0.36F, 1), true);
   }
 }
 
