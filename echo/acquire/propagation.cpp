@@ -152,8 +152,8 @@ void BeamTracer::lay_on_skin(const Transducer& transducer, const Pose& X_JP) noe
     const PlacedLine line = place_line(transducer, l, X_JP);
     const Vec3 end = line.origin_J + 2 * kHovers * line.direction_J;
     const QueryCount count = scene_->find_intervals({line.origin_J, end}, intervals);
-    const bool gel = intervals[0].region == kOutside;
-    if (count.size > 0) nearest = std::min(nearest, gel ? intervals[0].exit : 0.0);
+    if (count.size > 0)
+      nearest = std::min(nearest, intervals[0].region == kOutside ? intervals[0].exit : 0.0);
   }
   flattens_ = std::clamp((kHovers - nearest) / (kHovers - kTouches), 0.0, 1.0);
 }
