@@ -12,6 +12,7 @@
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/disjoint_sets.h"
+#include "artus/detail/soft/liquid/unfolded.h"
 
 namespace artus {
 namespace {
@@ -48,6 +49,8 @@ OpenedSpace::OpenedSpace(const CompiledJoint& joint, std::vector<RegionId> regio
       mesh_(joint.mesh),
       cage_(joint, regions_),
       field_(joint, cage_, stop) {
+  for (RegionId r = 0; r < joint.regions.size(); ++r)
+    hard_.push_back(joint.tissue_of(r).haptic.hard);
   find_places();
 }
 
@@ -324,8 +327,28 @@ std::vector<Vec3> OpenedSpace::vertices(const TetMesh& mesh, const Filling& fill
   if (!(flow.length_ > 0)) return moved;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (places[i].copy >= 0) moved[i] = flow.forth(places[i]).p;
+  put_right(mesh, moved);
   fill_inside(mesh, moved);
   return moved;
+}
+
+/// What the flow turns over.
+void OpenedSpace::put_right(const TetMesh& mesh, std::vector<Vec3>& moved) const {
+  Unfolding unfolding;
+  unfolding.held.assign(moved.size(), false);
+  const auto hold = [&](RegionId region, const auto& vertices) {
+    if (region < hard_.size() && hard_[region])
+      for (const std::uint32_t v : vertices) unfolding.held[v] = true;
+  };
+  for (const Interface& f : mesh.interfaces)
+    for (const RegionId region : {f.front, f.back}) hold(region, f.vertices);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) hold(mesh.regions[t], mesh.tetrahedra[t]);
+  unfolding.loose.assign(hard_.size() + 1, false);  // and what was parted
+  unfolding.loose.back() = true;
+  for (const RegionId region : regions_) unfolding.loose[region] = true;
+  unfolding.walls = walls_of(mesh_);
+  unfolding.finer = walls_of(mesh);
+  unfold(mesh, unfolding, moved);
 }
 
 /// What the space has between its walls goes along with them, drawn out evenly.

@@ -102,9 +102,11 @@ class OpenedSpace {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   [[nodiscard]] std::vector<Edge> edges_inside(const TetMesh& mesh) const;
   static void smooth(std::span<const Edge> edges, const TetMesh& mesh, std::vector<Vec3>& moved);
+  void put_right(const TetMesh& mesh, std::vector<Vec3>& moved) const;
   void fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const;
 
   std::vector<RegionId> regions_;
+  std::vector<bool> hard_;  // by region
   TetMesh mesh_;  // at rest
   SidedCage cage_;
   OpeningField field_;
