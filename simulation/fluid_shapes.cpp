@@ -9,6 +9,7 @@
 #include "artus/detail/haptics/plunger/space_pressure.h"
 #include "artus/detail/soft/liquid/injected_body.h"
 #include "artus/detail/soft/liquid/kept_volume.h"
+#include "artus/detail/soft/liquid/overflow.h"
 #include "artus/detail/soft/solver/face_stress.h"
 
 namespace artus {
@@ -61,11 +62,18 @@ std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const Deformed
   return make_body_map(shape, others);
 }
 
+double volume_of(const std::vector<Injected>& places) {
+  double volume = 0;
+  for (const Injected& place : places) volume += place.volume;
+  return volume;
+}
+
 FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
                       std::vector<Injected> places, const Liquid& liquid,
                       const OpenedSpaces& opened, const std::shared_ptr<const DeformedBody>& tissue,
                       const FluidShape* before) {
   FluidShape shape;
+  shape.left_out = volume_of(places) - volume_of(with_overflow(opened, places));
   StressAt stress;
   if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
   const double more = before != nullptr && tissue ? before->more : 1;

@@ -22,6 +22,7 @@ struct FluidShape {
   std::shared_ptr<const Scene> scene;  ///< rigid; null: it gives way
   std::shared_ptr<const BodyMap> map;  ///< null: rigid
   double made = 1;                     ///< times what was given that its spaces were opened by
+  double left_out = 0;                 ///< m^3 that the body has no room for (with_overflow)
   double more = 1;  ///< times what was given that its spaces' next shape is opened by: see below
 };
 

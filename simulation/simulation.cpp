@@ -157,6 +157,10 @@ const std::shared_ptr<const Scene>& Simulation::drawn_scene() const noexcept {
   return images_ ? images_->drawn_scene() : scene_;
 }
 
+double Simulation::left_out() const noexcept {
+  return images_ ? images_->left_out() : 0;
+}
+
 const Transducer& Simulation::transducer() const noexcept {
   return images_ ? images_->transducer() : params_.transducer;
 }

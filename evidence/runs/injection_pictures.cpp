@@ -311,6 +311,23 @@ std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const Injec
   return {X_JP, deep};
 }
 
+/// What is not where it was given, a line each.
+void tell_overflow(const std::vector<Injected>& given, const std::vector<Injected>& drawn,
+                   std::vector<std::string>& lines) {
+  double less = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) less += given[k].volume - drawn[k].volume;
+  for (std::size_t k = given.size(); k < drawn.size(); ++k) {
+    less -= drawn[k].volume;
+    lines.push_back(printed("%.2f ml are more than the space holds, and part ",
+                            drawn[k].volume / kCubicCentimetre) +
+                    drawn[k].region);
+  }
+  if (less > kDrawn)
+    lines.push_back(printed("%.2f ml are in parts of the space that the body does not have, and "
+                            "are not drawn",
+                            less / kCubicCentimetre));
+}
+
 }  // namespace
 
 Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& scene,
@@ -375,12 +392,9 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);
   }
-  const std::size_t given = last.size();
+  const std::vector<Injected> given = last;
   last = with_overflow(spaces, std::move(last));
-  for (std::size_t k = given; k < last.size(); ++k)
-    out.overflow.push_back(printed("%.2f ml are more than the space takes, and part ",
-                                   last[k].volume / kCubicCentimetre) +
-                           last[k].region);
+  tell_overflow(given, last, out.overflow);
   for (const Injected& place : last) {
     out.drawn_volume += place.volume;
     if (place.cavity)

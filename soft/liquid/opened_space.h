@@ -80,9 +80,10 @@ class OpenedSpace {
   /// m^3 of the space at rest.
   [[nodiscard]] double rest_volume() const;
   /// m^3 more than at rest that its shape can take. Two walls of an area A that do not stretch, as
-  /// a flat sac blown round, hold 1.2185 (A / pi)^(3/2) ([Paulsen1994], a mylar balloon); twice
-  /// that is let in, of walls a quarter longer. Fitted: beyond it tissue beside bone keeps less
-  /// than 0.3 of its volume. A joint is more than the recess that a body has of it.
+  /// a flat sac blown round, hold 1.2185 (A / pi)^(3/2) ([Paulsen1994], a mylar balloon); a
+  /// quarter more is let in, of walls 8 % longer. Fitted: beyond it the tissue around small spaces is
+  /// drawn out so much that its layers' volumes change. A joint is more than the recess that a body
+  /// has of it.
   [[nodiscard]] double max_volume() const;
   [[nodiscard]] std::span<const RegionId> regions() const noexcept { return regions_; }
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kRounds = 4;        // a full space spills into what may tear the next
 constexpr double kDrawn = 1e-9;   // m^3
+constexpr double kTorn = 1e-6;    // m^3 that are drawn of what tears out; the rest spreads; assumed
 constexpr double kInto = 0.5e-3;  // m behind the wall, where it begins to part tissue
 
 /// What parts, next to a space.
@@ -116,17 +117,17 @@ std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpace
   return found;
 }
 
-/// m^3 that a cavity still takes.
-double room_in(const OpenedSpace& space, const CompiledJoint& joint,
-               std::span<const Injected> places) {
-  double room = space.max_volume();
+/// m^3 that are put into a space, in whichever of its regions.
+double given_to(const OpenedSpace& space, const CompiledJoint& joint,
+                std::span<const Injected> places) {
+  double given = 0;
+  const auto in = space.regions();
   for (const Injected& place : places) {
     const auto region = find_region(joint, place.region);
-    const auto in = space.regions();
     if (place.cavity && region && std::find(in.begin(), in.end(), *region) != in.end())
-      room -= place.volume;
+      given += place.volume;
   }
-  return room;
+  return given;
 }
 
 /// Whether one did.
@@ -139,7 +140,9 @@ bool tear_films(const OpenedSpaces& spaces, const JointSpaces& laws,
     if (place.cavity || !region || !(place.volume > kDrawn)) continue;
     const double reach = half_thickness(joint, *region, place) + kHoldingFilm;
     const auto beside = cavity_beside(joint, laws, place.tip, reach);
-    if (!beside || room_in(spaces.of(beside->region), joint, places) < place.volume) continue;
+    if (!beside) continue;
+    const OpenedSpace& space = spaces.of(beside->region);
+    if (given_to(space, joint, places) + place.volume > space.max_volume()) continue;
     place.region = joint.regions[beside->region].name;
     place.cavity = true;
     place.tip = beside->p;
@@ -148,23 +151,37 @@ bool tear_films(const OpenedSpaces& spaces, const JointSpaces& laws,
   return torn;
 }
 
-/// Whether one did.
-bool spill(const OpenedSpaces& spaces, std::vector<Injected>& places) {
+/// Beyond what a space holds before it tears. Whether one did.
+bool spill(const OpenedSpaces& spaces, const JointSpaces& laws, std::vector<Injected>& places) {
   const CompiledJoint& joint = spaces.joint();
   bool spilt = false;
   for (std::size_t k = places.size(); k-- > 0;) {
     const auto region = find_region(joint, places[k].region);
     if (!places[k].cavity || !region) continue;
-    const OpenedSpace& space = spaces.of(*region);
-    const double more = std::min(-room_in(space, joint, places), places[k].volume);
+    const double most = laws.spaces[laws.of_region[*region]].law.rupture;
+    const double given = given_to(spaces.of(*region), joint, places);
+    const double more = std::min(given - most, places[k].volume);
     if (!(more > kDrawn)) continue;
-    const auto beyond = tissue_beyond(joint, places[k].tip, more);
+    const auto beyond = tissue_beyond(joint, places[k].tip, std::min(more, kTorn));
     if (!beyond) continue;
     places[k].volume -= more;
-    places.push_back({joint.regions[beyond->region].name, more, false, beyond->p, 0});
+    places.push_back(
+        {joint.regions[beyond->region].name, std::min(more, kTorn), false, beyond->p, 0});
     spilt = true;
   }
   return spilt;
+}
+
+/// What is in parts of a space that the body does not have.
+void leave_out(const OpenedSpaces& spaces, std::vector<Injected>& places) {
+  const CompiledJoint& joint = spaces.joint();
+  for (std::size_t k = places.size(); k-- > 0;) {
+    const auto region = find_region(joint, places[k].region);
+    if (!places[k].cavity || !region) continue;
+    const OpenedSpace& space = spaces.of(*region);
+    const double more = given_to(space, joint, places) - space.max_volume();
+    places[k].volume -= std::clamp(more, 0.0, places[k].volume);
+  }
 }
 
 }  // namespace
@@ -174,9 +191,10 @@ std::vector<Injected> with_overflow(const OpenedSpaces& spaces, std::vector<Inje
   if (!laws) return places;
   for (int round = 0; round < kRounds; ++round) {
     const bool torn = tear_films(spaces, *laws, places);
-    const bool spilt = spill(spaces, places);
+    const bool spilt = spill(spaces, *laws, places);
     if (!torn && !spilt) break;
   }
+  leave_out(spaces, places);
   return places;
 }
 

@@ -49,6 +49,7 @@ std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
   HealthQuestion question;
   for (const InjectedSite& site : sites)
     add_site(simulation.joint(), *spaces, site, question.liquid);
+  question.liquid.volume -= simulation.left_out();
   if (!(question.liquid.volume > 0)) return std::nullopt;
   add_parted(simulation.drawn_scene()->joint(), question.liquid);
   question.before = simulation.scene();
