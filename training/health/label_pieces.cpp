@@ -108,8 +108,7 @@ LayoutChange compare_layouts(const RegionLayout& before, const RegionLayout& aft
   for (const auto& [region, n] : after.pieces) {
     if (region < kFirstRegion || region >= kPartedRegion) continue;
     const auto was = before.pieces.find(region);
-    // One that was not seen comes into the slice from beside it, in one piece.
-    const int more = n - (was == before.pieces.end() ? 1 : was->second);
+    const int more = n - (was == before.pieces.end() ? 0 : was->second);
     if (more <= 0) continue;
     change.fragments += more;
     add(change.which_fragments,

@@ -44,8 +44,7 @@ struct RegionLayout {
 
 /// What is otherwise than before, in words: "deltoid 1 -> 3".
 struct LayoutChange {
-  int fragments = 0;   ///< pieces of tissue more than before, of all regions; one that
-                       ///< was not seen and comes into the slice in one piece is none
+  int fragments = 0;   ///< pieces of tissue more than before, of all regions
   int neighbours = 0;  ///< pairs that touch along 3 mm or more and did not before (0.3 mm)
   std::string which_fragments;
   std::string which_neighbours;
