@@ -113,7 +113,8 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
   const Field drum = make_rod(mm, {{-13.4, 0, 0, 20.7}, {13.4, 0, 0, 20.7}});
   const Field talar = turn(make_layer(drum, -0.6e-3, size.cartilage,
                                       make_ellipsoid(mm.at(0, 0, 17), mm.at(13.6, 19.5, 13))));
-  const Field tibial = make_layer(drum, size.cartilage, 2.6 * size.cartilage,
+  // From within the talar cartilage, which takes its share, so that both meet in one surface.
+  const Field tibial = make_layer(drum, 0.6 * size.cartilage, 2.6 * size.cartilage,
                                   grow(make_tibia(mm, size), 2 * size.cartilage));
   const Field roof =
       intersect(tibial, make_ellipsoid(mm.at(0.5, 0, 24), mm.at(14.5, 16.5, 9)), 0.5e-3);
@@ -301,9 +302,12 @@ std::vector<Solid> make_muscles(const Millimetres& mm) {
                      {0, 25, 8, 2}}),
       make_rod_part("anterior_muscles", mm,
                     {{2, -12, 130, 13}, {1, -12.6, 96, 10}, {0, -14.6, 70, 5}, {0, -18, 48, 1.6}}),
-      make_rod_part(
-          "peroneal_muscles", mm,
-          {{-26, 14, 120, 9}, {-25.6, 15.6, 80, 7}, {-24.6, 17.4, 52, 4}, {-24, 17.6, 36, 2}})};
+      make_rod_part("peroneal_muscles", mm,
+                    {{-26, 14, 120, 9},
+                     {-25, 17, 80, 8},
+                     {-23, 20, 52, 5.5},
+                     {-21.5, 21, 36, 4},
+                     {-21, 20.5, 22, 2.4}})};
 }
 
 // Where bone or tendon lies under the skin, the skin follows it.

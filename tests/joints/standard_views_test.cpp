@@ -37,7 +37,8 @@ TEST_P(StandardViews, ShowWhatTheirProtocolsName) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Joints, StandardViews, testing::Values("shoulder", "knee", "hip"));
+INSTANTIATE_TEST_SUITE_P(Joints, StandardViews,
+                         testing::Values("shoulder", "knee", "hip", "elbow", "wrist", "ankle"));
 
 }  // namespace
 }  // namespace artus
