@@ -137,10 +137,10 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
 // malleolus the tibial nerve behind its artery; behind the lateral one the sural nerve.
 std::vector<Solid> make_lines(const Millimetres& mm) {
   return {make_course("tibial_nerve", mm,
-                      {{8, 27, 70, 2.2},
-                       {12, 27.5, 34, 2.2},
-                       {16.6, 24.5, 10, 2.1},
-                       {17.6, 17.5, -10, 1.9},
+                      {{8, 27, 70, 2},
+                       {12, 27.5, 34, 1.95},
+                       {16.6, 24.5, 10, 1.9},
+                       {17.6, 17.5, -10, 1.8},
                        {16.5, 6, -23, 1.6},
                        {13, -12, -31, 1.5}}),
           make_course("posterior_tibial_artery", mm,
