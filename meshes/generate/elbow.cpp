@@ -271,7 +271,7 @@ std::vector<Solid> make_flexors(const Millimetres& mm) {
                          {-4, -33, 12, 2.5},
                          {-6.5, -40, 4, 2.2},
                          {-6, -44, -1, 2}}),
-          make_strap_part("biceps", mm, kForward,
+          make_strap_part("biceps_brachii", mm, kForward,
                           {{0, -31, 110, 20, 8},
                            {0, -31, 70, 17, 7.4},
                            {-0.5, -31.2, 50, 13, 5.8},

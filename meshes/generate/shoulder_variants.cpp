@@ -114,12 +114,13 @@ Field make_articular_tear(const ShoulderSize& size) {
   return intersect(off_cartilage, off_bone, mm.length(0.5));
 }
 
-// Swollen folds of synovium on the floor of the bursa, 0.3 to 1 mm high.
+// Swollen folds of synovium on the floor of the bursa, 0.2 to 1.3 mm high: for a bursa that is
+// thicker than they are.
 Field make_bursal_synovium(const Millimetres& mm, const ShoulderSize& size) {
   const Field floor = grow(make_shoulder_cuff_side(size), size.peribursal_fat);
-  const double wave = mm.length(1.3);
+  const double wave = mm.length(0.85);
   const Field folds = [floor, wave](const Vec3& p) {
-    return floor(p) - 0.65e-3 - 0.35e-3 * roughness(p, wave);
+    return floor(p) - 0.75e-3 - 0.6e-3 * roughness(p, wave);
   };
   const Field layer = subtract(folds, floor, 0.1e-3);
   return intersect(layer, make_ball(mm.at(-18, -4, 24), mm.length(14)), mm.length(1));
