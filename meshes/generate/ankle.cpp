@@ -113,7 +113,8 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
   const Field drum = make_rod(mm, {{-13.4, 0, 0, 20.7}, {13.4, 0, 0, 20.7}});
   const Field talar = turn(make_layer(drum, -0.6e-3, size.cartilage,
                                       make_ellipsoid(mm.at(0, 0, 17), mm.at(13.6, 19.5, 13))));
-  const Field tibial = make_layer(drum, size.cartilage, 2.6 * size.cartilage,
+  // From within the talar cartilage, which takes its share, so that both meet in one surface.
+  const Field tibial = make_layer(drum, 0.6 * size.cartilage, 2.6 * size.cartilage,
                                   grow(make_tibia(mm, size), 2 * size.cartilage));
   const Field roof =
       intersect(tibial, make_ellipsoid(mm.at(0.5, 0, 24), mm.at(14.5, 16.5, 9)), 0.5e-3);
@@ -136,10 +137,10 @@ std::vector<Solid> make_bones(const Millimetres& mm, const AnkleSize& size) {
 // malleolus the tibial nerve behind its artery; behind the lateral one the sural nerve.
 std::vector<Solid> make_lines(const Millimetres& mm) {
   return {make_course("tibial_nerve", mm,
-                      {{8, 27, 70, 2.2},
-                       {12, 27.5, 34, 2.2},
-                       {16.6, 24.5, 10, 2.1},
-                       {17.6, 17.5, -10, 1.9},
+                      {{8, 27, 70, 2},
+                       {12, 27.5, 34, 1.95},
+                       {16.6, 24.5, 10, 1.9},
+                       {17.6, 17.5, -10, 1.8},
                        {16.5, 6, -23, 1.6},
                        {13, -12, -31, 1.5}}),
           make_course("posterior_tibial_artery", mm,
@@ -301,9 +302,12 @@ std::vector<Solid> make_muscles(const Millimetres& mm) {
                      {0, 25, 8, 2}}),
       make_rod_part("anterior_muscles", mm,
                     {{2, -12, 130, 13}, {1, -12.6, 96, 10}, {0, -14.6, 70, 5}, {0, -18, 48, 1.6}}),
-      make_rod_part(
-          "peroneal_muscles", mm,
-          {{-26, 14, 120, 9}, {-25.6, 15.6, 80, 7}, {-24.6, 17.4, 52, 4}, {-24, 17.6, 36, 2}})};
+      make_rod_part("peroneal_muscles", mm,
+                    {{-26, 14, 120, 9},
+                     {-25, 17, 80, 8},
+                     {-23, 20, 52, 5.5},
+                     {-21.5, 21, 36, 4},
+                     {-21, 20.5, 22, 2.4}})};
 }
 
 // Where bone or tendon lies under the skin, the skin follows it.

@@ -11,25 +11,7 @@
 namespace artus {
 namespace {
 
-// Widths are those of a hull: found to this, m.
-constexpr double kCoarse = 0.25e-3;
-
-/// How wide the solid is along `along`, as far as it lies within `half` of `centre` along all
-/// three directions that the axes have, m.
-double width_along(const Field& solid, const Vec3& centre, const Vec3& half, int axis) {
-  double least = 1;
-  double most = -1;
-  Vec3 d = Vec3::Zero();
-  for (d.x() = -half.x(); d.x() <= half.x(); d.x() += 4 * kCoarse)
-    for (d.y() = -half.y(); d.y() <= half.y(); d.y() += 4 * kCoarse)
-      for (d.z() = -half.z(); d.z() <= half.z(); d.z() += 4 * kCoarse) {
-        const double at = d[axis];
-        if ((at > least && at < most) || solid(centre + d) >= 0) continue;
-        least = std::min(least, at);
-        most = std::max(most, at);
-      }
-  return most - least;
-}
+constexpr double kCoarse = 0.25e-3;  // m between the places that are looked at
 
 /// Between the highest points of both ridges and the deepest of the groove between them, degrees,
 /// in the transverse plane at `z`; forward is -y.

@@ -16,6 +16,7 @@
 #include "artus/detail/meshes/generate/hip.h"
 #include "artus/detail/meshes/generate/knee.h"
 #include "artus/detail/meshes/generate/leg_measures.h"
+#include "artus/detail/meshes/generate/limb_measures.h"
 #include "artus/detail/meshes/generate/person.h"
 #include "artus/detail/meshes/generate/shoulder.h"
 #include "artus/detail/meshes/generate/shoulder_measures.h"
@@ -73,6 +74,9 @@ std::vector<artus::Measure> measures_of(const Options& options) {
   if (options.joint == "shoulder") return measure_shoulder(sized<artus::ShoulderSize>(options));
   if (options.joint == "hip") return measure_hip(sized<artus::HipSize>(options));
   if (options.joint == "knee") return measure_knee(sized<artus::KneeSize>(options));
+  if (options.joint == "elbow") return measure_elbow(sized<artus::ElbowSize>(options));
+  if (options.joint == "wrist") return measure_wrist(sized<artus::WristSize>(options));
+  if (options.joint == "ankle") return measure_ankle(sized<artus::AnkleSize>(options));
   return {};
 }
 

@@ -35,6 +35,33 @@ double last_inside(const Vec3& from, const Vec3& along, double length, const Fie
   return at;
 }
 
+double width_along(const Field& solid, const Vec3& centre, const Vec3& half, int axis,
+                   double step) {
+  double least = 1;
+  double most = -1;
+  Vec3 d = Vec3::Zero();
+  for (d.x() = -half.x(); d.x() <= half.x(); d.x() += step)
+    for (d.y() = -half.y(); d.y() <= half.y(); d.y() += step)
+      for (d.z() = -half.z(); d.z() <= half.z(); d.z() += step) {
+        const double at = d[axis];
+        if ((at > least && at < most) || solid(centre + d) >= 0) continue;
+        least = std::min(least, at);
+        most = std::max(most, at);
+      }
+  return most - least;
+}
+
+double area_across(const Field& solid, const Vec3& centre, const Vec3& normal, double reach) {
+  constexpr double kCell = 0.05e-3;  // m
+  const Vec3 a = normal.unitOrthogonal();
+  const Vec3 b = normal.cross(a);
+  int inside = 0;
+  for (double u = -reach; u < reach; u += kCell)
+    for (double v = -reach; v < reach; v += kCell)
+      inside += solid(centre + u * a + v * b) < 0 ? 1 : 0;
+  return inside * kCell * kCell;
+}
+
 std::string to_markdown(const std::string& joint, const std::vector<Measure>& measures) {
   std::string page = "# The bundled " + joint +
                      " beside published adults\n\nWritten by `artus_generate_meshes " + joint +

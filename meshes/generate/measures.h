@@ -7,10 +7,10 @@
 
 namespace artus {
 
-/// A length or angle of a generated joint beside what was published of adults.
+/// A length, angle or area of a generated joint beside what was published of adults.
 struct Measure {
   std::string what;
-  double value = 0;  ///< mm, or degrees where `what` says so
+  double value = 0;  ///< mm, or degrees or mm2 where `what` says so
   double least = 0;  ///< of adults, in the same unit
   double most = 0;
   std::string source;
@@ -33,6 +33,16 @@ inline constexpr double kMeasureStep = 0.02e-3;
 /// Requires: `along` has length 1.
 [[nodiscard]] double last_inside(const Vec3& from, const Vec3& along, double length,
                                  const Field& solid);
+
+/// How wide the solid is along `axis`, as far as it lies within `half` of `centre` along all three
+/// axes, m, to `step`.
+[[nodiscard]] double width_along(const Field& solid, const Vec3& centre, const Vec3& half, int axis,
+                                 double step = 1e-3);
+
+/// The area of what of a plane through `centre`, across `normal` and within `reach` of it, lies in
+/// the solid, m2. Requires: `normal` has length 1.
+[[nodiscard]] double area_across(const Field& solid, const Vec3& centre, const Vec3& normal,
+                                 double reach);
 
 /// Measures as a page: a table in Markdown of the joint called so on the command line.
 [[nodiscard]] std::string to_markdown(const std::string& joint,

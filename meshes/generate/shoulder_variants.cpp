@@ -63,14 +63,67 @@ Field make_tear(const ShoulderSize& size) {
   const Field under_bursa = make_ball(frame.at(0, 2, 0), mm.length(32.1));
   const Field oval =
       make_ellipsoid(frame.at(-19, 2.5, 18), mm.at(20, 9.5, 15), ScapularFrame::axes());
-  const Field width = [oval, wave](const Vec3& p) {
-    return oval(p) + 1.2e-3 * roughness(p, 1.3 * wave);
+  // Frayed sides that lean together toward the bursa.
+  const Vec3 middle = frame.at(0, 2, 0);
+  const double deep = mm.length(27);
+  const Field width = [oval, wave, middle, deep](const Vec3& p) {
+    return oval(p) + 0.45 * ((p - middle).norm() - deep) + 1.2e-3 * roughness(p, 1.3 * wave) +
+           1.3e-3 * roughness(p, 3.1 * wave);
   };
   const Field gap =
       intersect(intersect(under_bursa, off_bone, mm.length(0.6)), stump, mm.length(0.8));
   const Field end =
       make_half_space(frame.at(-27, 0, 10.5), ScapularFrame::direction(-0.85, 0, -0.5));
   return intersect(intersect(gap, width, mm.length(1)), end, mm.length(2));
+}
+
+// Fibres torn off the upper or the lower side of the tendon near its footprint: a frayed hollow
+// with fluid, a little more than half of its thickness deep. The upper one opens to the bursa;
+// under the lower one, which opens to the joint, the bone is pitted.
+Field make_frayed_hollow(const ShoulderSize& size, double radius, double degrees, double depth) {
+  const Millimetres mm(size.head_radius);
+  const ScapularFrame frame(size.head_radius);
+  const Vec3 middle = frame.on_circle(radius, degrees, 2.4);
+  const Vec3 out = ScapularFrame::outward(degrees);
+  const Vec3 across = ScapularFrame::direction(0, 1, 0);
+  Eigen::Matrix3d axes;
+  axes << across.cross(out), across, out;
+  const Field oval = make_ellipsoid(middle, mm.at(6, 6.5, depth), axes);
+  const double wave = mm.length(0.9);
+  return [oval, wave](const Vec3& p) {
+    return oval(p) + 0.5e-3 * roughness(p, 0.8 * wave) + 0.5e-3 * roughness(p, 2 * wave);
+  };
+}
+
+Field make_bursal_tear(const ShoulderSize& size) {
+  const Millimetres mm(size.head_radius);
+  const Field under_bursa = make_ball(ScapularFrame(size.head_radius).at(0, 2, 0), mm.length(31.9));
+  return intersect(make_frayed_hollow(size, 31.4, 44, 3.4), under_bursa, mm.length(0.5));
+}
+
+Field make_articular_tear(const ShoulderSize& size) {
+  const Millimetres mm(size.head_radius);
+  const Field bone = make_humerus(size);
+  const double wave = mm.length(0.9);
+  const Field off_bone = [bone, wave](const Vec3& p) {
+    return -bone(p) - 0.3e-3 - 0.5e-3 * roughness(p, wave);
+  };
+  const Field off_cartilage =
+      subtract(make_frayed_hollow(size, 25.8, 53, 2.9),
+               make_ball(Vec3::Zero(), size.head_radius + size.cartilage), mm.length(0.4));
+  return intersect(off_cartilage, off_bone, mm.length(0.5));
+}
+
+// Swollen folds of synovium on the floor of the bursa, 0.2 to 1.3 mm high: for a bursa that is
+// thicker than they are.
+Field make_bursal_synovium(const Millimetres& mm, const ShoulderSize& size) {
+  const Field floor = grow(make_shoulder_cuff_side(size), size.peribursal_fat);
+  const double wave = mm.length(0.85);
+  const Field folds = [floor, wave](const Vec3& p) {
+    return floor(p) - 0.75e-3 - 0.6e-3 * roughness(p, wave);
+  };
+  const Field layer = subtract(folds, floor, 0.1e-3);
+  return intersect(layer, make_ball(mm.at(-18, -4, 24), mm.length(14)), mm.length(1));
 }
 
 // Between head and capsule, under the tendons as far as the cartilage goes; its pouch lies beside
@@ -127,12 +180,21 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
   const Vec3 deposit = mm.at(-12.9, -3.5, 24.2);
   const Vec3 tear = ScapularFrame(size.head_radius).on_circle(28.4, 42, 2);
+  const ScapularFrame frame(size.head_radius);
+  const Vec3 bursal = frame.on_circle(30, 44, 2.4);
+  const Vec3 articular = frame.on_circle(27.2, 52, 2.4);
+  const Field synovium = make_bursal_synovium(mm, size);
+  Vec3 fold = mm.at(-14, -4, 22);
+  while (synovium(fold) >= 0 && fold.norm() < mm.length(60)) fold += 0.02e-3 * Vec3(-0.5, 0, 1);
   const Vec3 ac = mm.at(15.8, 7, 41);
   const Vec3 recess =
       Vec3(13, 24.5, -2).normalized() * (size.head_radius + size.cartilage + 0.6e-3);
   return {
       {"calcific_deposit", make_deposit(mm, deposit), deposit, mm.length(40), 0.8e-3, 0.04e-3},
       {"supraspinatus_tear", make_tear(size), tear, mm.length(50), 0.8e-3, 0.05e-3},
+      {"bursal_tear", make_bursal_tear(size), bursal, mm.length(40), 0.8e-3, 0.05e-3},
+      {"articular_tear", make_articular_tear(size), articular, mm.length(40), 0.8e-3, 0.05e-3},
+      {"bursal_synovium", synovium, fold, mm.length(60), 1.2e-3, 0.08e-3},
       {"posterior_recess", make_posterior_recess(mm, size), recess, mm.length(50), 1e-3, 0.05e-3},
       {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -11, 29.5),
        mm.length(80), 1e-3, 0.06e-3},

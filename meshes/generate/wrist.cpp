@@ -15,7 +15,7 @@ const Vec3 kHand(0, 0, -1);
 
 // What scaphoid and lunate turn as in the radius: its socket leans to the little finger.
 Field make_condyle(const Millimetres& mm) {
-  return make_ellipsoid(mm.at(-6, 3, -18), mm.at(22, 13, 17));
+  return make_ellipsoid(mm.at(-5.2, 3, -18), mm.at(20.2, 13, 17));
 }
 
 Field make_scaphoid(const Millimetres& mm) {
@@ -32,17 +32,17 @@ Field make_radius_block(const Millimetres& mm) {
   const Field shaft = make_ribbon({{mm.at(-8, 1, 110), kPalm, mm.length(7), mm.length(6.5)},
                                    {mm.at(-8.5, 1, 45), kPalm, mm.length(8), mm.length(6.5)},
                                    {mm.at(-9.5, 1, 20), kPalm, mm.length(12.5), mm.length(8)},
-                                   {mm.at(-10, 1.4, 6), kPalm, mm.length(15), mm.length(9.6)},
-                                   {mm.at(-10, 1.6, -2), kPalm, mm.length(15), mm.length(9.6)}},
+                                   {mm.at(-10.6, 1.4, 6), kPalm, mm.length(14.1), mm.length(9.6)},
+                                   {mm.at(-10.6, 1.6, -2), kPalm, mm.length(14.1), mm.length(9.6)}},
                                   2.4);
-  const Field styloid = make_rod(mm, {{-18, 1, 2, 7}, {-22, 1, -6, 4.2}, {-23.2, 1, -9.5, 2.6}});
+  const Field styloid = make_rod(mm, {{-18, 1, 2, 7}, {-22, 1, -6, 4.2}, {-23, 1, -10.5, 2.8}});
   const Field lister =
       make_rod(mm, {{-10.5, 9.6, 14, 1.8}, {-10.5, 10.6, 8, 2.2}, {-10.5, 10.2, 3, 1.8}});
   return unite(unite(shaft, styloid, mm.length(4)), lister, mm.length(2));
 }
 
 Field make_radius(const Millimetres& mm, const WristSize& size) {
-  const Field sigmoid = make_rod(mm, {{15.5, 2, 12, 9}, {15.5, 2, -4, 9.4}});
+  const Field sigmoid = make_rod(mm, {{15, 2, 12, 9.4}, {14.6, 2, -4, 9.8}});
   return subtract(
       subtract(make_radius_block(mm), grow(make_condyle(mm), 2 * size.cartilage), mm.length(0.6)),
       sigmoid, mm.length(0.8));

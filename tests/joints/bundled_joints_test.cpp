@@ -108,7 +108,7 @@ TEST(CommittedJoint, IsSmall) {
 
 INSTANTIATE_TEST_SUITE_P(Joints, BundledJoint,
                          testing::Values("simple-shoulder", "shoulder", "elbow", "wrist", "hip",
-                                         "knee"),
+                                         "knee", "ankle"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            name.erase(std::remove(name.begin(), name.end(), '-'), name.end());

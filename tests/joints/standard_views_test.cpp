@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Every view of the bundled joints shows what its protocol names: there, at its depth, in order and
 // on its side, by the truth of the picture.
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -18,7 +19,11 @@ namespace {
 class StandardViews : public testing::TestWithParam<std::string> {};
 
 TEST_P(StandardViews, ShowWhatTheirProtocolsName) {
-  auto read = read_compiled_joint(test::test_joints() / (GetParam() + ".artus"));
+  const auto file = test::test_joints() / (GetParam() + ".artus");
+  // Its surfaces are others'; who has them compiles it there (meshes/real-shoulder/README.md).
+  if (GetParam() == "real-shoulder" && !std::filesystem::exists(file))
+    GTEST_SKIP() << file << " is not there";
+  auto read = read_compiled_joint(file);
   ASSERT_TRUE(read) << read.error().to_string();
   const auto joint = std::make_shared<const CompiledJoint>(std::move(*read));
   const Scene scene(joint);
@@ -37,7 +42,9 @@ TEST_P(StandardViews, ShowWhatTheirProtocolsName) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Joints, StandardViews, testing::Values("shoulder", "knee", "hip"));
+INSTANTIATE_TEST_SUITE_P(Joints, StandardViews,
+                         testing::Values("shoulder", "knee", "hip", "elbow", "wrist", "ankle",
+                                         "real-shoulder"));
 
 }  // namespace
 }  // namespace artus

@@ -74,6 +74,10 @@ bool has_number(std::string_view name, int fma) {
   return next >= name.size() || name[next] < '0' || name[next] > '9';
 }
 
+std::string stem_of(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
+
 std::string box_text(const Eigen::AlignedBox3d& box) {
   const Vec3 a = box.min() / kMillimetre;
   const Vec3 b = box.max() / kMillimetre;
@@ -129,7 +133,8 @@ class Finder {
       } else if (std::find(skin_names_.begin(), skin_names_.end(), bare_name(part.name)) !=
                  skin_names_.end()) {
         plates.push_back(std::move(part.mesh));
-      } else if (has_number(stem, kSkinNumber) || bare_name(part.name) == "skin") {
+      } else if (has_number(stem, kSkinNumber) || bare_name(part.name) == "skin" ||
+                 stem == stem_of(joint_.skin_file)) {
         skin_ = std::move(part.mesh);
       }
     }
@@ -189,6 +194,9 @@ class Finder {
         if (std::find(names_[i].begin(), names_[i].end(), bare_name(name)) != names_[i].end())
           return Candidate{i, {}, "name '" + bare_name(name) + "'", {}, {}, 0};
     }
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (!stem.empty() && stem == stem_of(joint_.surfaces[i].file))
+        return Candidate{i, {}, "the joint's own name", {}, {}, 0};
     return std::nullopt;
   }
 

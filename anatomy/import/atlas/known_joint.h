@@ -50,11 +50,12 @@ struct FoundJoint {
   std::vector<std::string> notes;  ///< to look at: frames, parts that are there twice
 };
 
-/// Finds a known joint's surfaces in the files of an atlas as they come: by number or name, and
-/// where unit and axes of a file are others by the boxes that are known. A folder stands for what
-/// is in it. Errors: those of read_scene_parts for a file that is named itself (in a folder what
-/// is no surface is passed over); not_found (surfaces that no file has, all of them, with number
-/// and name); invalid (a part whose box fits in no frame, with both boxes).
+/// Finds a known joint's surfaces in the files of an atlas as they come: by number or name, or by
+/// the name that the joint has for the file, and where unit and axes of a file are others by the
+/// boxes that are known. A folder stands for what is in it. Errors: those of read_scene_parts for a
+/// file that is named itself (in a folder what is no surface is passed over); not_found (surfaces
+/// that no file has, all of them, with number and name); invalid (a part whose box fits in no
+/// frame, with both boxes).
 [[nodiscard]] Result<FoundJoint> find_known_joint(const KnownJoint& joint,
                                                   const std::vector<std::filesystem::path>& files,
                                                   double unit, const Progress& progress = {});

@@ -109,6 +109,17 @@ TEST_F(KnownJointTest, SurfacesAreFoundByNumberAndByNameAndPlatesByTheirRegion) 
   EXPECT_THAT(again.error().message, HasSubstr("--replace"));
 }
 
+TEST_F(KnownJointTest, FilesThatHaveTheJointsOwnNamesAreTakenTogetherWithItsClosedSkin) {
+  put(cube_mm(-100, 20, 300), "b_humerus.ply");
+  put(cube_mm(-130, 10, 310), "m_deltoid.ply");
+  put(cube_mm(-100, 20, 300, 60), "skin.ply");
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().to_string();
+  ASSERT_EQ(found->surfaces.size(), 3U);
+  EXPECT_EQ(found->surfaces[1].by, "the joint's own name");
+  EXPECT_FALSE(found->skin_is_plates);
+}
+
 TEST_F(KnownJointTest, UnitAndAxesOfAFileAreThoseInWhichItsSurfacesLieWhereTheyAreKnown) {
   AtlasFrame from_lps;  // a file in metres with y up: (x, z, -y) / 1000
   from_lps.scale = 1e-3;

@@ -143,6 +143,13 @@ TEST(JointVariant, ABundledJointIsReadByItsName) {
   EXPECT_EQ(knee->name, "knee");
 }
 
+/// How bright a joint's tissues are, all together: what a variant that changes a tissue changes.
+double brightness(const JointFile& joint) {
+  double sum = 0;
+  for (const Tissue& tissue : joint.tissues) sum += tissue.acoustic.backscatter;
+  return sum;
+}
+
 TEST(JointVariant, EveryOneOfTheShoulderIsReadAloneAndNamesItsSurfaces) {
   const std::filesystem::path folder = test::source_dir() / "meshes/shoulder";
   const auto plain = read_joint(folder);
@@ -151,7 +158,9 @@ TEST(JointVariant, EveryOneOfTheShoulderIsReadAloneAndNamesItsSurfaces) {
   for (const JointVariant& variant : plain->variants) {
     const auto joint = read_joint(with_variant(folder, variant.name));
     ASSERT_TRUE(joint) << joint.error().to_string();
-    EXPECT_GT(joint->structures.size(), plain->structures.size()) << variant.name;
+    EXPECT_TRUE(joint->structures.size() > plain->structures.size() ||
+                brightness(*joint) > brightness(*plain))
+        << variant.name;
     EXPECT_FALSE(variant.title.empty());
   }
 }
