@@ -21,14 +21,13 @@ constexpr double kLeast = 0.05;      // of its volume at rest, what a tetrahedro
 constexpr double kSliver = 5e-3;     // of its longest edge's cube, what a sliver's volume is below
 constexpr double kFlattest = 1e-5;   // the same, of what has no shape to keep
 constexpr double kStiffness = 30;    // of volume against shape; assumed
-constexpr int kRings = 3;            // of tetrahedra around what is wrong that may move
+constexpr int kRings = 2;            // of tetrahedra around what is wrong that may move
 constexpr int kWidenings = 2;        // by as many rings each
-constexpr int kSweeps = 80;          // at most, of all vertices of a patch
-constexpr int kSettling = 6;         // of them after all are right
-constexpr int kSteps = 3;            // of a vertex in a sweep
+constexpr int kSweeps = 60;          // at most, of all vertices of a patch
+constexpr int kSettling = 3;         // of them after all are right
 constexpr int kHalvings = 12;        // of a step
 constexpr double kStride = 0.2e-3;   // m that a step is at most
-constexpr double kRests = 1e-8;      // m, of a step that is the last
+constexpr double kRests = 2e-6;      // m, of a step after which a vertex is left until one beside it moves
 constexpr double kDescent = 1e-4;    // of what a step should give, what it must
 constexpr double kSofter = 0.2;      // at first, of the worst
 constexpr double kSoft = 1e-3;       // the same, of what is not turned over
@@ -112,6 +111,8 @@ class Patch {
       for (std::uint32_t k = 0; k < 4; ++k) around[elements_[e].v[k]].emplace_back(e, k);
     around_.clear();
     for (const std::uint32_t v : free_) around_.push_back(std::move(around[v]));
+    active_.assign(moved_.size(), true);
+    gave_.assign(free_.size(), 0);
     soft_ = std::hypot(kSofter * std::min(least(), 0.0), kSoft);
     double along = 0;
     double across = 0;
@@ -134,6 +135,7 @@ class Patch {
       sweep();
       const double off = wanted_ - volume_within(walls_, moved_);
       if (giving_ > 0) pressure_ += off / (2 * giving_);
+      if (!(std::abs(off) < kSame * wanted_)) wake_walls();
       const double worst = least();
       whole = worst > 0 && std::abs(off) < kSame * wanted_;
       settled = whole && worst > kLeast ? settled + 1 : 0;
@@ -193,11 +195,21 @@ class Patch {
     soft_ = worst < goal ? std::max(2 * std::sqrt(goal * (goal - worst)), kHardest) : kHardest;
   }
 
+  /// All that have not come to rest, or lie beside what has not.
   void sweep() {
-    giving_ = 0;
-    for (std::size_t i = 0; i < free_.size(); ++i)
-      for (int k = 0; k < kSteps && step(i, k == 0); ++k) {
-      }
+    double giving = 0;
+    std::vector<bool> next(moved_.size(), false);
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      if (!active_[free_[i]]) continue;
+      const Step taken = step(i);
+      gave_[i] = taken.giving;
+      if (!(taken.way > kRests)) continue;
+      for (const auto& [e, k] : around_[i])
+        for (const std::uint32_t v : elements_[e].v) next[v] = active_[v] = true;
+    }
+    for (const double g : gave_) giving += g;
+    giving_ = giving;
+    active_ = std::move(next);
   }
   void collect(std::size_t i) {
     terms_.clear();
@@ -244,8 +256,16 @@ class Patch {
     return sum;
   }
 
-  /// Of one vertex, down its energy; false where it rests.
-  bool step(std::size_t i, bool first) {
+  void wake_walls() {
+    for (const auto& wall : walls_)
+      for (const std::uint32_t v : wall) active_[v] = true;
+  }
+  struct Step {
+    double way = 0;     // m
+    double giving = 0;  // m^3 by a pressure of 1
+  };
+  /// Of one vertex, down its energy.
+  Step step(std::size_t i) {
     collect(i);
     const Vec3 area = area_at(free_[i], walls_, around_walls_, moved_);
     const Vec3 push = pressure_ * area;
@@ -254,19 +274,19 @@ class Patch {
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
     solver.computeDirect(at.hessian);
     const double stiffest = solver.eigenvalues().cwiseAbs().maxCoeff();
-    if (!(stiffest > 0)) return false;
+    if (!(stiffest > 0)) return {};
     const Vec3 stiff = solver.eigenvalues().cwiseAbs().cwiseMax(1e-6 * stiffest);
     const Mat3 axes = solver.eigenvectors();
-    if (first) giving_ += (axes.transpose() * area).cwiseAbs2().cwiseQuotient(stiff).sum();
+    const double giving = (axes.transpose() * area).cwiseAbs2().cwiseQuotient(stiff).sum();
     Vec3 d = -(axes * (axes.transpose() * gradient).cwiseQuotient(stiff));
     d *= std::min(1.0, kStride / std::max(d.norm(), kStride));
     const double now = energy_at(Vec3::Zero());
     for (int k = 0; k < kHalvings; ++k, d /= 2) {
       if (!(energy_at(d) - push.dot(d) <= now + kDescent * gradient.dot(d))) continue;
       moved_[free_[i]] += d;
-      return d.norm() > kRests;
+      return {d.norm(), giving};
     }
-    return false;
+    return {0, giving};
   }
 
   const TetMesh& rest_;
@@ -280,6 +300,8 @@ class Patch {
   std::vector<Term> terms_;  // of the vertex that is looked at
   double soft_ = 0;
   double pressure_ = 0;  // of the elements' stiffness
+  std::vector<bool> active_;   // by vertex
+  std::vector<double> gave_;   // by free vertex, m^3 by a pressure of 1
   double giving_ = 0;    // m^3 by a pressure of 1, a vertex at a time
 };
 
