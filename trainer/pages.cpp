@@ -55,8 +55,9 @@ std::vector<PageLine> about_task(const OfferedTask& task, Language language) {
   add_syringe(scenario, language, lines);
   lines.push_back(
       {fill(translate(language, "Time: {} s"), {number(language, scenario.time_limit, 0)})});
+  if (!task.open)
+    lines.push_back({fill(translate(language, "level {}"), {std::to_string(scenario.level)})});
   if (task.tally.attempts > 0) lines.push_back({tally_words(language, task.tally), Tone::dim});
-  add_marks(scenario, language, lines);
   return lines;
 }
 
@@ -242,15 +243,15 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state = !task.open ? translate(language, "locked")
-                              : passed   ? translate(language, "passed")
+    const std::string state = passed ? translate(language, "passed")
                               : task.tally.attempts > 0
                                   ? std::to_string(whole_points(task.tally.best))
                                   : translate(language, "new");
     page.choices.push_back(
         {title_words(language, task.scenario),
-         fill(translate(language, "level {}"), {std::to_string(task.scenario.level)}) + "   " +
-             state,
+         task.open ? fill(translate(language, "level {}"), {std::to_string(task.scenario.level)}) +
+                         "   " + state
+                   : translate(language, "locked"),
          !task.open ? Tone::dim
          : passed   ? Tone::good
                     : Tone::plain,

@@ -46,6 +46,7 @@ class ShownTips {
 /// stood out in the picture.
 std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
                    std::optional<double> shown, Language language) {
+  if (state.input.device.has_needle == 0) return "";
   if (state.inserted == 0) return translate(language, "The needle is not in the body here");
   TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
   sight.shown_db = shown;

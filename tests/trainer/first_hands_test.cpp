@@ -25,8 +25,7 @@ class Skins {
     if (scenario.gel) return -p_J.z();
     std::shared_ptr<const Scene>& skin = skins_[scenario.joint];
     if (!skin) {
-      const auto file =
-          test::source_dir() / "meshes" / scenario.joint / "surfaces" / "body.ply";
+      const auto file = test::source_dir() / "meshes" / scenario.joint / "surfaces" / "body.ply";
       const auto surface = read_surface(file, kMillimetre);
       EXPECT_TRUE(surface) << file;
       skin = make_closed_body(surface->vertices, surface->triangles, "body");
