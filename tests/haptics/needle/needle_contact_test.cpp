@@ -440,7 +440,7 @@ TEST_F(ContactTest, ANeedleThatComesFromBeyondTheMeshIsInTheAirUntilItMeetsSkin)
     auto met = body.intervals(model.query_segment(pose));
     met.front().region = kBeyond;
     model.step(pose, met);
-    if (z < 0) ASSERT_EQ(state(), ContactState::away) << z;
+    EXPECT_TRUE(z >= 0 || state() == ContactState::away) << z;
   }
   EXPECT_NEAR(model.contact().tick().depth, 0.010, 1e-4);
 }
