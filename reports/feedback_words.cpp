@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/reports/feedback_words.h"
 
+#include <algorithm>
+
 #include "artus/detail/viewer/words/retell.h"
 
 namespace artus {
@@ -91,17 +93,19 @@ constexpr const char* kSentences[] = {
     msgid("Do the same task again without aids: only that counts."),
     msgid("Repeat it once to make sure, then go to the next level."),
     msgid("Repeat this task."),
-    msgid("Find the structures in the gel block with the probe ({})."),
-    msgid("Follow the tip to a shallow point on the gel block ({})."),
-    msgid("Hold the needle in the plane on the gel block ({})."),
-    msgid("Touch the point at 20 mm on the gel block ({})."),
+    msgid("Find the structures in the gel block with the probe."),
+    msgid("Follow the tip to a shallow point on the gel block."),
+    msgid("Hold the needle in the plane on the gel block."),
+    msgid("Touch the point at 20 mm on the gel block."),
     msgid("Repeat this task: aspirate, inject half a ml, look, then inject the rest."),
 };
 
 }  // namespace
 
 std::string feedback_words(Language language, const std::string& english) {
-  return retell(language, kSentences, english);
+  std::string told = retell(language, kSentences, english);
+  if (language == Language::english) std::replace(told.begin(), told.end(), '_', ' ');  // names
+  return told;
 }
 
 }  // namespace artus

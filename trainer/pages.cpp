@@ -55,8 +55,11 @@ std::vector<PageLine> about_task(const OfferedTask& task, Language language) {
   add_syringe(scenario, language, lines);
   lines.push_back(
       {fill(translate(language, "Time: {} s"), {number(language, scenario.time_limit, 0)})});
+  if (!task.open)
+    lines.push_back({fill(translate(language, "level {}"), {std::to_string(scenario.level)}) +
+                         ", " + translate(language, "locked"),
+                     Tone::dim});
   if (task.tally.attempts > 0) lines.push_back({tally_words(language, task.tally), Tone::dim});
-  add_marks(scenario, language, lines);
   return lines;
 }
 
@@ -242,15 +245,15 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state = !task.open ? translate(language, "locked")
-                              : passed   ? translate(language, "passed")
+    const std::string state = passed ? translate(language, "passed")
                               : task.tally.attempts > 0
                                   ? std::to_string(whole_points(task.tally.best))
                                   : translate(language, "new");
     page.choices.push_back(
         {title_words(language, task.scenario),
-         fill(translate(language, "level {}"), {std::to_string(task.scenario.level)}) + "   " +
-             state,
+         task.open ? fill(translate(language, "level {}"), {std::to_string(task.scenario.level)}) +
+                         "   " + state
+                   : "",
          !task.open ? Tone::dim
          : passed   ? Tone::good
                     : Tone::plain,
@@ -389,8 +392,11 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
                                                             : msgid("Not passed"));
   add_verdict(outcome, language, page.lines);
   add_left_out(outcome.played.measures, language, page.lines);
-  page.lines.push_back(
-      {fill(translate(language, "Report: {}"), {outcome.report.string()}), Tone::dim});
+  if (!outcome.unrecorded.empty())
+    page.lines.push_back(
+        {fill(translate(language, "It is judged and kept, but cannot be reviewed: {}"),
+              {said_by_system(language, outcome.unrecorded)}),
+         Tone::bad});
   std::vector<PageLine> about;
   if (!feedback.faults.empty())
     about.push_back({translate(language, "What went wrong, the worst first"), Tone::heading});
@@ -414,6 +420,8 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
         msgid("Someone else"), msgid("Open the report"), msgid("Leave")})
     page.choices.push_back(
         {fill(translate(language, choice), {next}), "", Tone::plain, about, nullptr});
+  page.choices[static_cast<std::size_t>(AfterAttempt::report)].about = {
+      {fill(translate(language, "Report: {}"), {outcome.report.string()}), Tone::dim}};
   return page;
 }
 

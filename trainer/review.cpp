@@ -46,6 +46,7 @@ class ShownTips {
 /// stood out in the picture.
 std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
                    std::optional<double> shown, Language language) {
+  if (state.input.device.has_needle == 0) return "";
   if (state.inserted == 0) return translate(language, "The needle is not in the body here");
   TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
   sight.shown_db = shown;
@@ -193,10 +194,8 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
   const auto& ticks = played.recording.ticks;
   const double begin =
       ticks.empty() ? 0 : static_cast<double>(ticks.front().input.tick) / review.params.haptic_rate;
-  constexpr double kSeen =
-      0.5;  // s into a fault, when there is something to see of it: the report's
   for (const Fault& fault : outcome.feedback.faults)
-    review.faults.push_back({fault.time - begin + kSeen, feedback_words(language, fault.what),
+    review.faults.push_back({fault.time - begin, feedback_words(language, fault.what),
                              feedback_words(language, fault.cause),
                              feedback_words(language, fault.mend)});
   return review;

@@ -355,10 +355,10 @@ struct SkillTask {
 /// A skill's task: what to do, and the scenario for it.
 SkillTask task_of(Skill skill) {
   constexpr std::array<SkillTask, 5> kTasks{
-      {{"Find the structures in the gel block with the probe (gel-look).", "gel-look"},
-       {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"},
-       {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"},
-       {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"},
+      {{"Find the structures in the gel block with the probe.", "gel-look"},
+       {"Follow the tip to a shallow point on the gel block.", "gel-find"},
+       {"Hold the needle in the plane on the gel block.", "gel-hold"},
+       {"Touch the point at 20 mm on the gel block.", "gel-align"},
        {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""}}};
   return kTasks.at(static_cast<std::size_t>(skill));
 }

@@ -198,7 +198,9 @@ void WindowLoop::read_state() {
     input_.syringe = read_syringe(session_.scene(), spaces_, input_.now, session_.params());
   const Pose X_JP = to_pose(input_.now.X_JP);
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
-  const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);
+  // Where the skin is hollow a face lies on with its ends: what presses is not lifted.
+  const bool touches = input_.probe.share > 0 || (gap && *gap <= kLifted);
+  const bool lifted = input_.now.input.device.has_probe != 0 && !touches;
   if (lifted != input_.probe_lifted && control_.grab() == Grab::probe)
     say(translate(state_, lifted ? msgid("The probe lifts off the skin")
                                  : msgid("The probe lies on the skin")));

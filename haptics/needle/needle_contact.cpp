@@ -11,6 +11,12 @@
 namespace artus {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What is beyond the region of interest is none: a tip that comes from there is in the air for all
+/// that is known.
+bool is_tissue(RegionId region) noexcept {
+  return region >= kFirstRegion;
+}
 }  // namespace
 
 const char* to_string(ContactState state) noexcept {
@@ -140,18 +146,18 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   const double at_tip = params_.approach;
   std::size_t tip_index = 0;
   while (tip_index + 1 < intervals.size() && intervals[tip_index].exit <= at_tip) ++tip_index;
-  const bool inside = !intervals.empty() && intervals[tip_index].region != kOutside;
+  const bool inside = !intervals.empty() && is_tissue(intervals[tip_index].region);
   std::size_t first = tip_index;
   if (!inside) {
     adopt_ = false;
     leave();
     depths_.reset(0);
-    while (first < intervals.size() && intervals[first].region == kOutside) ++first;
+    while (first < intervals.size() && !is_tissue(intervals[first].region)) ++first;
     const double ahead = first < intervals.size() ? intervals[first].entry - at_tip : kInfinity;
     skin_.wait({tick_.tip, tick_.orientation, -ahead});
     return;
   }
-  while (first > 0 && intervals[first - 1].region != kOutside) --first;
+  while (first > 0 && is_tissue(intervals[first - 1].region)) --first;
   const double depth = at_tip - intervals[first].entry;
   const NeedlePlace now{tick_.tip, tick_.orientation, depth};
   tick_.axis = X_JN.linear().col(2);
@@ -226,7 +232,7 @@ void NeedleContact::follow_line(const Pose& X_JN) noexcept {
 // How far the tip is in the first tissue of its line, m; negative outside.
 double NeedleContact::clearance() const noexcept {
   for (const ShaftLayer& s : tick_.shaft) {
-    if (s.region != kOutside) return std::min(tick_.depth, tick_.depth - s.entry);
+    if (is_tissue(s.region)) return std::min(tick_.depth, tick_.depth - s.entry);
   }
   return -kInfinity;
 }

@@ -335,6 +335,8 @@ TEST(TrainTask, WhatFeedbackSaysIsSaidInFrenchWithItsNumbersAndStructures) {
             "angle de l'aiguille à la face de la sonde : 62,1 degrés ; devrait être sous 50,0");
   EXPECT_EQ(french("a sentence that nobody said"), "a sentence that nobody said");
   EXPECT_EQ(feedback_words(Language::english, "passes"), "passes");
+  EXPECT_EQ(feedback_words(Language::english, "the tip was in carpal_tunnel"),
+            "the tip was in carpal tunnel");
 }
 
 /// No line of what novices are told stays English.

@@ -59,4 +59,9 @@ std::optional<Vec3> find_entry(const Scene& scene, const Vec3& tip, const Vec3& 
   return std::nullopt;
 }
 
+RegionId region_of_tip(const Scene& scene, const Vec3& tip, const Vec3& axis) noexcept {
+  const RegionId region = scene.region_at(tip);
+  return region == kBeyond && !find_entry(scene, tip, axis) ? kOutside : region;
+}
+
 }  // namespace artus

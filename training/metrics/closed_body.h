@@ -30,4 +30,9 @@ inline constexpr double kEntryReach = 0.3;
 [[nodiscard]] std::optional<Vec3> find_entry(const Scene& scene, const Vec3& tip,
                                              const Vec3& axis) noexcept;
 
+/// The region that a needle's tip is in. Where the body is not meshed, "beyond" says no more than
+/// that its cut is the nearest surface: a tip whose line back crosses no skin is outside.
+[[nodiscard]] RegionId region_of_tip(const Scene& scene, const Vec3& tip,
+                                     const Vec3& axis) noexcept;
+
 }  // namespace artus

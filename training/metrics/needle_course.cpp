@@ -51,7 +51,7 @@ std::vector<CoursePoint> make_course(const Scene& scene, std::span<const TrackPo
     now.time = point.time;
     now.tip = point.p;
     now.axis = axis_of(point);
-    now.region = scene.region_at(now.tip);
+    now.region = region_of_tip(scene, now.tip, now.axis);
     if (now.inside()) {
       const auto entry = find_entry(scene, now.tip, now.axis);
       now.entry = entry.value_or(now.tip);

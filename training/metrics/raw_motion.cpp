@@ -14,8 +14,8 @@ namespace {
 constexpr double kDegrees = 180 / 3.141592653589793;  // a radian
 constexpr double kAround = 1e-3;                      // m before and behind the tip
 
-bool is_inside(const Scene& body, const Vec3& p) {
-  return body.region_at(p) != kOutside;
+bool is_inside(const Scene& body, const Vec3& p, const Vec3& axis) {
+  return region_of_tip(body, p, axis) != kOutside;
 }
 
 /// The rotation that is least far from a matrix a little off one: the polar decomposition's.
@@ -43,8 +43,8 @@ RawMotion::RawMotion(std::shared_ptr<const Scene> body, bool needle)
 void RawMotion::add_puncture(const Pose& X_JB, bool inside) {
   const Vec3 axis = X_JB.linear().col(2);
   const Vec3 tip = X_JB.translation();
-  const bool before = is_inside(*body_, tip + kAround * axis);
-  const bool behind = is_inside(*body_, tip - kAround * axis);
+  const bool before = is_inside(*body_, tip + kAround * axis, axis);
+  const bool behind = is_inside(*body_, tip - kAround * axis, axis);
   if (armed_ && inside && before && behind) {
     ++punctures_;
     armed_ = false;
@@ -55,7 +55,7 @@ void RawMotion::add_puncture(const Pose& X_JB, bool inside) {
 
 void RawMotion::add_tissue(double time, const Pose& X_JB, double step) {
   const Vec3 tip = X_JB.translation();
-  const bool inside = is_inside(*body_, tip);
+  const bool inside = is_inside(*body_, tip, X_JB.linear().col(2));
   if (started_ && inside) {
     tissue_path_ += step;
     tissue_time_ += time - time_;

@@ -74,9 +74,11 @@ class MomentPicture {
   std::uint64_t number_ = 0;
 };
 
+constexpr double kSeen = 0.5;  // s into a fault, when there is something to see of it: the report's
+
 std::vector<double> times_of(const std::vector<ReviewFault>& faults) {
   std::vector<double> times;
-  for (const ReviewFault& fault : faults) times.push_back(fault.time);
+  for (const ReviewFault& fault : faults) times.push_back(fault.time + kSeen);
   return times;
 }
 
@@ -97,7 +99,7 @@ class ReviewGui {
         cursor_(review.film.length(), times_of(review.faults)),
         yours_(review.scene, review.params),
         beside_(review.scene, review.params) {
-    if (!review.faults.empty()) cursor_.go_to(review.faults.front().time);
+    if (!review.faults.empty()) cursor_.go_to(review.faults.front().time + kSeen);
   }
 
   [[nodiscard]] Result<bool> run() {

@@ -434,5 +434,16 @@ TEST_F(ContactTest, TotalForceIsTheSumOfItsComponents) {
   EXPECT_LT((f.total.force - sum).norm(), 1e-15);
 }
 
+TEST_F(ContactTest, ANeedleThatComesFromBeyondTheMeshIsInTheAirUntilItMeetsSkin) {
+  for (double z = -0.030; z < 0.010; z += 1e-5) {
+    const Pose pose = make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX());
+    auto met = body.intervals(model.query_segment(pose));
+    met.front().region = kBeyond;
+    model.step(pose, met);
+    EXPECT_TRUE(z >= 0 || state() == ContactState::away) << z;
+  }
+  EXPECT_NEAR(model.contact().tick().depth, 0.010, 1e-4);
+}
+
 }  // namespace
 }  // namespace artus

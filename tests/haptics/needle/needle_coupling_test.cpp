@@ -258,7 +258,7 @@ struct SoftHalfSpace {
     const double skin = std::clamp(-segment.start.z(), 0.0, length);
     QueryCount count;
     if (skin > 0) out[count.size++] = {0, skin, kOutside, Vec3::Zero(), kNoInterface};
-    if (skin < length) out[count.size++] = {skin, length, 1, -Vec3::UnitZ(), 0};
+    if (skin < length) out[count.size++] = {skin, length, kFirstRegion, -Vec3::UnitZ(), 0};
     return count;
   }
 };
@@ -292,7 +292,7 @@ class CoupledInsertion {
     layer.tissue.wall_stiffness = 500;
     layer.tissue.puncture_force = 1.5;
     layer.tissue.friction = 1;
-    return LayerTable({{}, layer});
+    return LayerTable({{}, {}, layer});
   }
   static NeedleRendererParams params() {
     NeedleRendererParams params;

@@ -26,7 +26,7 @@ struct HalfSpace {
     if (truncated) count = {1, true};
     return count;
   }
-  static constexpr RegionId kTissue = 1;
+  static constexpr RegionId kTissue = kFirstRegion;
 };
 
 class Insertion {
@@ -54,7 +54,7 @@ class Insertion {
     LayerHaptics layer;
     layer.tissue.cutting_force = 2;
     layer.tissue.wall_stiffness = 2000;
-    return LayerTable({{}, layer});
+    return LayerTable({{}, {}, layer});
   }
   static NeedleRendererParams params() {
     NeedleRendererParams params;
@@ -102,7 +102,7 @@ TEST(NeedleTickStep, AQueryThatStaysTruncatedEndsAtZeroAndTheNeedleThenBeginsAtR
 TEST(NeedleTickStep, NeitherAllocatesNorLocksWhateverTheBodySays) {
   NeedleRendererParams params;
   params.device = find_device("ideal").value();
-  NeedleTickStep tick(LayerTable({{}, {}}), params);
+  NeedleTickStep tick(LayerTable({{}, {}, {}}), params);
   HalfSpace body;
   for (int i = 0; i < 1000; ++i) {
     const double t = 1e-3 * i;

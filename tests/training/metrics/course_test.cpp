@@ -147,6 +147,22 @@ TEST(Course, MovementsLastAFifthOfASecond) {
   EXPECT_EQ(count({{0.06, 6}, {0, 4}, {0.06, 6}}), 2);
 }
 
+TEST(Course, ATipBesideACutBodyIsOutsideUnlessItsShaftCameThroughTheSkin) {
+  CompiledJoint joint = *test::make_layered_scene()->shared_joint();
+  for (Interface& face : joint.mesh.interfaces) {
+    const bool top = std::all_of(face.vertices.begin(), face.vertices.end(),
+                                 [&](std::uint32_t v) { return joint.mesh.vertices[v].z() == 0; });
+    if (!top && face.front == kOutside) face.front = kBeyond;
+  }
+  const Scene cut(std::make_shared<const CompiledJoint>(std::move(joint)));
+  constexpr double kBeside = 0.2;  // m from the block's middle
+  const Vec3 beside(kBeside, 0, 0.01);
+  const Vec3 below(0, 0, kBeside);
+  ASSERT_EQ(cut.region_at(beside), kBeyond);
+  EXPECT_EQ(region_of_tip(cut, beside, Vec3::UnitZ()), kOutside);
+  EXPECT_EQ(region_of_tip(cut, below, Vec3::UnitZ()), kBeyond);
+}
+
 TEST(Course, TotalsOfARealBlock) {
   const auto scene = test::make_layered_scene();
   std::vector<TrackPoint> track;
