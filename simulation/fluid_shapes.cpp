@@ -77,8 +77,7 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
   StressAt stress;
   if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
   const double more = before != nullptr && tissue ? before->more : 1;
-  for (Injected& place : places)
-    if (place.cavity) place.volume *= more;
+  for (Injected& place : places) place.more = more;
   shape.joint =
       std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress, opened));
   if (!tissue) {

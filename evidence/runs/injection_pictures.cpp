@@ -323,9 +323,10 @@ void tell_overflow(const std::vector<Injected>& given, const std::vector<Injecte
                     drawn[k].region);
   }
   if (less > kDrawn)
-    lines.push_back(printed("%.2f ml are in parts of the space that the body does not have, and "
-                            "are not drawn",
-                            less / kCubicCentimetre));
+    lines.push_back(
+        printed("%.2f ml are in parts of the space that the body does not have, and "
+                "are not drawn",
+                less / kCubicCentimetre));
 }
 
 }  // namespace

@@ -327,7 +327,7 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
       const auto known = std::find_if(filled.begin(), filled.end(),
                                       [&](const Filled& f) { return f.space == space; });
       if (known != filled.end()) {
-        known->filling.volume += place.volume;
+        known->filling.volume += place.more * place.volume;
         continue;
       }
       OpenedSpace::Press press;
@@ -335,9 +335,8 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
         press = [&stress, whole = std::max(place.pressure, kMinPressure)](const Vec3& p) {
           return stress(p) / whole;
         };
-      filled.push_back({space, {place.tip, place.volume, press}});
+      filled.push_back({space, {place.tip, place.more * place.volume, press}});
     }
-  for (Filled& f : filled) f.filling.volume = std::min(f.filling.volume, f.space->max_volume());
   open_spaces(filled, with.mesh);
   if (filled.empty()) return with;
   const TissueId tissue = liquid_tissue(with, liquid);

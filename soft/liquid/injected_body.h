@@ -46,6 +46,7 @@ struct Injected {
   bool cavity = false;      ///< a space that opens; otherwise tissue that parts
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
   double pressure = 0;      ///< Pa of the liquid there when nothing presses; at least 500 is taken
+  double more = 1;          ///< times what is drawn of it that its space is opened by
 };
 /// Pa that presses on a material point (rest, m, frame J) from outside.
 using StressAt = std::function<double(const Vec3&)>;

@@ -342,7 +342,8 @@ void OpenedSpace::put_right(const TetMesh& mesh, std::vector<Vec3>& moved) const
   };
   for (const Interface& f : mesh.interfaces)
     for (const RegionId region : {f.front, f.back}) hold(region, f.vertices);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) hold(mesh.regions[t], mesh.tetrahedra[t]);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    hold(mesh.regions[t], mesh.tetrahedra[t]);
   unfolding.loose.assign(hard_.size() + 1, false);  // and what was parted
   unfolding.loose.back() = true;
   for (const RegionId region : regions_) unfolding.loose[region] = true;

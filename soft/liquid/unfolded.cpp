@@ -17,23 +17,24 @@ namespace {
 using Mat3 = Eigen::Matrix3d;
 using Triangles = std::vector<Unfolding::Triangle>;
 
-constexpr double kLeast = 0.05;      // of its volume at rest, what a tetrahedron keeps
-constexpr double kSliver = 5e-3;     // of its longest edge's cube, what a sliver's volume is below
-constexpr double kFlattest = 1e-5;   // the same, of what has no shape to keep
-constexpr double kStiffness = 30;    // of volume against shape; assumed
-constexpr int kRings = 2;            // of tetrahedra around what is wrong that may move
-constexpr int kWidenings = 2;        // by as many rings each
-constexpr int kSweeps = 60;          // at most, of all vertices of a patch
-constexpr int kSettling = 3;         // of them after all are right
-constexpr int kHalvings = 12;        // of a step
-constexpr double kStride = 0.2e-3;   // m that a step is at most
-constexpr double kRests = 2e-6;      // m, of a step after which a vertex is left until one beside it moves
-constexpr double kDescent = 1e-4;    // of what a step should give, what it must
-constexpr double kSofter = 0.2;      // at first, of the worst
-constexpr double kSoft = 1e-3;       // the same, of what is not turned over
-constexpr double kHardest = 1e-9;    // softness at last
-constexpr double kSame = 1e-3;       // of the liquid's volume, until a last push
-constexpr double kStrongest = 5;     // of a first guess at the pressure
+constexpr double kLeast = 0.05;     // of its volume at rest, what a tetrahedron keeps
+constexpr double kSliver = 5e-3;    // of its longest edge's cube, what a sliver's volume is below
+constexpr double kFlattest = 1e-5;  // the same, of what has no shape to keep
+constexpr double kStiffness = 30;   // of volume against shape; assumed
+constexpr int kRings = 2;           // of tetrahedra around what is wrong that may move
+constexpr int kWidenings = 2;       // by as many rings each
+constexpr int kSweeps = 60;         // at most, of all vertices of a patch
+constexpr int kSettling = 3;        // of them after all are right
+constexpr int kHalvings = 12;       // of a step
+constexpr double kStride = 0.2e-3;  // m that a step is at most
+constexpr double kRests =
+    2e-6;  // m, of a step after which a vertex is left until one beside it moves
+constexpr double kDescent = 1e-4;  // of what a step should give, what it must
+constexpr double kSofter = 0.2;    // at first, of the worst
+constexpr double kSoft = 1e-3;     // the same, of what is not turned over
+constexpr double kHardest = 1e-9;  // softness at last
+constexpr double kSame = 1e-3;     // of the liquid's volume, until a last push
+constexpr double kStrongest = 5;   // of a first guess at the pressure
 constexpr int kPushes = 6;
 
 double longest_edge(const TetMesh& mesh, const std::array<std::uint32_t, 4>& tet) {
@@ -140,7 +141,9 @@ class Patch {
       whole = worst > 0 && std::abs(off) < kSame * wanted_;
       settled = whole && worst > kLeast ? settled + 1 : 0;
       soften(worst, before, energy());
-      if(getenv("UNF2"))std::printf("%d worst %.3f off %.4f p %.2f soft %.2g\n",k,worst,off/wanted_,pressure_,soft_);
+      if (getenv("UNF2"))
+        std::printf("%d worst %.3f off %.4f p %.2f soft %.2g\n", k, worst, off / wanted_, pressure_,
+                    soft_);
     }
     return whole;
   }
@@ -218,8 +221,7 @@ class Patch {
       const Mat3 f = edges_of(moved_, element.v) * element.inverse;
       const Vec3& g = element.share[k];
       Mat3 cofactors;
-      for (int c = 0; c < 3; ++c)
-        cofactors.col(c) = f.col((c + 1) % 3).cross(f.col((c + 2) % 3));
+      for (int c = 0; c < 3; ++c) cofactors.col(c) = f.col((c + 1) % 3).cross(f.col((c + 2) % 3));
       terms_.push_back({element.weight, f.squaredNorm(), g.squaredNorm(), f * g,
                         f.col(0).dot(cofactors.col(0)), cofactors * g});
     }
@@ -245,13 +247,11 @@ class Patch {
       const double h1 = 2 * t.det / chi - h / chi * chi1;
       const double h2 = 2 / chi - 4 * t.det / (chi * chi) * chi1 +
                         2 * h / (chi * chi) * chi1 * chi1 - h / chi * chi2;
-      sum.gradient +=
-          t.weight * (2 * p * t.drawn + (t.square * p1 + kStiffness * h1) * t.cofactor);
+      sum.gradient += t.weight * (2 * p * t.drawn + (t.square * p1 + kStiffness * h1) * t.cofactor);
       const Mat3 both = t.drawn * t.cofactor.transpose();
-      sum.hessian += t.weight * (2 * p * t.stretch * Mat3::Identity() +
-                                 2 * p1 * (both + both.transpose()) +
-                                 (t.square * p2 + kStiffness * h2) * t.cofactor *
-                                     t.cofactor.transpose());
+      sum.hessian +=
+          t.weight * (2 * p * t.stretch * Mat3::Identity() + 2 * p1 * (both + both.transpose()) +
+                      (t.square * p2 + kStiffness * h2) * t.cofactor * t.cofactor.transpose());
     }
     return sum;
   }
@@ -299,10 +299,10 @@ class Patch {
   Around around_;            // by free vertex: elements
   std::vector<Term> terms_;  // of the vertex that is looked at
   double soft_ = 0;
-  double pressure_ = 0;  // of the elements' stiffness
-  std::vector<bool> active_;   // by vertex
-  std::vector<double> gave_;   // by free vertex, m^3 by a pressure of 1
-  double giving_ = 0;    // m^3 by a pressure of 1, a vertex at a time
+  double pressure_ = 0;       // of the elements' stiffness
+  std::vector<bool> active_;  // by vertex
+  std::vector<double> gave_;  // by free vertex, m^3 by a pressure of 1
+  double giving_ = 0;         // m^3 by a pressure of 1, a vertex at a time
 };
 
 /// What is around what is wrong, and grows.
@@ -382,8 +382,7 @@ void push_out(const Triangles& walls, const std::vector<bool>& held, double volu
   const Around around = walls_around(walls, moved.size());
   std::vector<Vec3> normals(moved.size(), Vec3::Zero());
   for (std::uint32_t v = 0; v < moved.size(); ++v)
-    if (!held[v] && !around[v].empty())
-      normals[v] = area_at(v, walls, around, moved).normalized();
+    if (!held[v] && !around[v].empty()) normals[v] = area_at(v, walls, around, moved).normalized();
   for (int k = 0; k < kPushes; ++k) {
     double area = 0;
     for (std::uint32_t v = 0; v < moved.size(); ++v)

@@ -98,7 +98,8 @@ double least_ratio(const TetMesh& rest, const std::vector<Vec3>& moved) {
   now.vertices = moved;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < rest.tetrahedra.size(); ++t)
-    if (rest.regions[t] == kTissue) least = std::min(least, tet_volume(now, t) / tet_volume(rest, t));
+    if (rest.regions[t] == kTissue)
+      least = std::min(least, tet_volume(now, t) / tet_volume(rest, t));
   return least;
 }
 
