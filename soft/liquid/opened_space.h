@@ -81,9 +81,9 @@ class OpenedSpace {
   [[nodiscard]] double rest_volume() const;
   /// m^3 more than at rest that its shape can take. Two walls of an area A that do not stretch, as
   /// a flat sac blown round, hold 1.2185 (A / pi)^(3/2) ([Paulsen1994], a mylar balloon); a
-  /// quarter more is let in, of walls 8 % longer. Fitted: beyond it the tissue around small spaces is
-  /// drawn out so much that its layers' volumes change. A joint is more than the recess that a body
-  /// has of it.
+  /// quarter more is let in, of walls 8 % longer. Fitted: beyond it the tissue around small spaces
+  /// is drawn out so much that its layers' volumes change. A joint is more than the recess that a
+  /// body has of it.
   [[nodiscard]] double max_volume() const;
   [[nodiscard]] std::span<const RegionId> regions() const noexcept { return regions_; }
 
@@ -108,7 +108,7 @@ class OpenedSpace {
 
   std::vector<RegionId> regions_;
   std::vector<bool> hard_;  // by region
-  TetMesh mesh_;  // at rest
+  TetMesh mesh_;            // at rest
   SidedCage cage_;
   OpeningField field_;
   std::vector<SidedCage::Place> places_;  // by vertex at rest; no copy: outside the cage, or inside
