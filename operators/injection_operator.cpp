@@ -13,6 +13,8 @@ using Goal = OperatorPhase::Goal;
 constexpr double kBoneFeelTime = 0.03;  // s of full force until the operator is sure; assumed
 constexpr double kWatchTime = 0.15;     // s in which a tip off its depth is brought back; assumed
 constexpr double kWatchSpeed = 2e-3;    // m/s at most meanwhile; assumed
+constexpr double kThere = 0.3e-3;       // m off its depth, of a tip that is there; assumed
+constexpr double kWaitsFor = 3;         // s more, for which it is waited for; assumed
 constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
 
 // Fraction 0 to 1 with zero speed at both ends.
@@ -44,15 +46,15 @@ OperatorView view_of(const NeedleModel& model) noexcept {
   return view;
 }
 
-std::optional<double> deeper_than_planned(const NeedleContact& contact, RegionId region,
-                                          double planned) noexcept {
-  std::optional<double> nearest;
+std::optional<ShaftLayer> layer_seen(const NeedleContact& contact, RegionId region,
+                                     double planned) noexcept {
+  std::optional<ShaftLayer> nearest;
   if (!contact.inserted()) return nearest;
-  for (const ShaftLayer& s : contact.tick().shaft) {
-    if (s.region != region) continue;
-    const double deeper = 0.5 * (s.entry + s.exit) - planned;
-    if (!nearest || std::abs(deeper) < std::abs(*nearest)) nearest = deeper;
-  }
+  const auto off = [planned](const ShaftLayer& s) {
+    return std::abs(0.5 * (s.entry + s.exit) - planned);
+  };
+  for (const ShaftLayer& s : contact.tick().shaft)
+    if (s.region == region && (!nearest || off(s) < off(*nearest))) nearest = s;
   return nearest;
 }
 
@@ -97,12 +99,16 @@ bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double
                                  const OperatorView& view) noexcept {
   const double elapsed = time - phase_time_;
   if ((phase.until_flow && view.flows) || (phase.until_given && view.given)) return true;
+  const double over = elapsed - phase.duration;
   switch (phase.kind) {
     case Kind::hold:
+      if (phase.keeps_depth && view.depth && over < kWaitsFor)
+        return over >= 0 && std::abs(*view.depth - phase.depth) < kThere;
+      return over >= 0;
     case Kind::turn:
     case Kind::let_go:
     case Kind::wait:
-      return elapsed >= phase.duration;
+      return over >= 0;
     case Kind::withdraw:
       return depth <= phase.depth;
     case Kind::advance:

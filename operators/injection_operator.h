@@ -24,12 +24,12 @@ struct OperatorView {
 /// The view of someone to whom every component of the force is known.
 [[nodiscard]] OperatorView view_of(const NeedleModel& model) noexcept;
 
-/// m by which the picture shows a structure deeper along the needle than at `planned` (m from the
-/// skin, its middle): pressed and dragged tissue has its layers elsewhere. Of several such layers
-/// the nearest counts. nullopt: the needle is out, or the structure not on its line as far as is
-/// seen.
-[[nodiscard]] std::optional<double> deeper_than_planned(const NeedleContact& contact,
-                                                        RegionId region, double planned) noexcept;
+/// Where the picture shows a structure along the needle that was planned at `planned` (m from the
+/// skin, its middle): pressed, dragged and opened tissue has its layers elsewhere. Of several such
+/// layers the nearest counts. nullopt: the needle is out, or the structure not on its line as far
+/// as is seen.
+[[nodiscard]] std::optional<ShaftLayer> layer_seen(const NeedleContact& contact, RegionId region,
+                                                   double planned) noexcept;
 
 /// What one injection's operator means to do: phases one after another along a line through the
 /// entry point, watching the tip as on the echo image, and feeling for bone. The one state machine

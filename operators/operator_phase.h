@@ -20,7 +20,7 @@ struct OperatorPhase {
   double before_floor = 0;     ///< m above the end of a layer that Goal::region stops at the
                                ///< latest, however deep it meant to go; 0: half way through
   bool keeps_depth = false;    ///< hold: where the tip is watched (OperatorView::depth) it is kept
-                               ///< at `depth`
+                               ///< at `depth`, which it is waited for at the end
   bool stop_at_bone = false;   ///< advance: bone ends it, too
   RegionId region = kOutside;  ///< Goal::region
   double duration = 0;         ///< s; hold, turn, wait: exactly; others: at most

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/detail/soft/liquid/lens.h"
+
 namespace artus {
 namespace {
 
@@ -28,6 +30,7 @@ SyringeCore::SyringeCore(const CompiledJoint& joint, const SessionParams& params
 SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
     : bevel_(0),
       places_(make_bevel_places(spaces)),
+      lifted_(places_.kinds.size(), 0.0),
       plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
       guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0}, 1 / params.haptic_rate),
       dt_(1 / params.haptic_rate) {
@@ -74,9 +77,24 @@ bool SyringeCore::follow_travel(const DeviceSample& device, PlungerInput& input)
   return !jumped;
 }
 
+/// By how much what is in a space has lifted its roof off the floor where the bevel is.
+void SyringeCore::find_lifted(const NeedleContact& contact) noexcept {
+  std::fill(lifted_.begin(), lifted_.end(), 0.0);
+  if (!contact.inserted()) return;
+  const NeedleTick& tick = contact.tick();
+  const Vec3 p = tick.tip - bevel_ / 2 * tick.axis;
+  for (std::size_t k = 0; k < n_sites_; ++k) {
+    const InjectedSite& site = sites_[k];
+    if (site.cavity == 0 || !(site.volume > 0)) continue;
+    const double away = (p - Vec3(site.p_J[0], site.p_J[1], site.p_J[2])).norm();
+    lifted_[space_of_site_[k]] = lens_height(site.volume, away);
+  }
+}
+
 void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact) noexcept {
   PlungerInput input;
-  input.tip = bevel_shares(contact, bevel_, places_);
+  find_lifted(contact);
+  input.tip = tip_ = bevel_shares(contact, bevel_, places_, lifted_);
   input.depth = contact.tick().depth;
   const double before = plunger_.state().content;
   told_ = std::max(0.0, told_ - dt_);

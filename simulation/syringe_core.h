@@ -51,6 +51,8 @@ class SyringeCore {
   /// N along the needle, of the thumb's force: what of it the fingers do not carry.
   [[nodiscard]] double on_needle() const noexcept { return on_needle_; }
   [[nodiscard]] const Plunger& plunger() const noexcept { return plunger_; }
+  /// In which places the opening of the bevel was in the last step.
+  [[nodiscard]] const std::array<TipShare, 2>& tip() const noexcept { return tip_; }
   /// In the order in which something came to them.
   [[nodiscard]] std::span<const InjectedSite> sites() const noexcept {
     return {sites_.data(), n_sites_};
@@ -61,10 +63,13 @@ class SyringeCore {
   void describe(double thumb, std::uint32_t faults) noexcept;
   [[nodiscard]] bool jumps(const DeviceSample& device) noexcept;
   [[nodiscard]] bool follow_travel(const DeviceSample& device, PlungerInput& input) noexcept;
+  void find_lifted(const NeedleContact& contact) noexcept;
   void note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept;
 
   double bevel_;  // m
   BevelPlaces places_;
+  std::vector<double> lifted_;  // (n_spaces) m of roof, off the bevel
+  std::array<TipShare, 2> tip_{};
   Plunger plunger_;
   OutputGuard guard_;
   double zero_ = 0;  // m of the device's travel where the plunger's is 0

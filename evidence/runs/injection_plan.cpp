@@ -9,10 +9,14 @@ namespace {
 
 constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 
+double middle_of(const LineLayer& layer) {
+  return (layer.from + layer.to) / 2;
+}
+
 /// m along the line where the tip stops: the bevel's opening in the middle of a layer, not the tip
 /// behind which it lies.
 double tip_in_middle(const LineLayer& layer, double opening) {
-  const double middle = (layer.from + layer.to) / 2;
+  const double middle = middle_of(layer);
   return std::max(std::min(middle + opening / 2, layer.to - kBeforeFloor), middle);
 }
 
@@ -24,15 +28,15 @@ double tip_near(const LineLayer& layer, double opening, double wanted) {
   return first <= last ? std::clamp(wanted, first, last) : tip_in_middle(layer, opening);
 }
 
+SpaceKind kind_of(RegionId region, const JointSpaces& spaces) {
+  return spaces.spaces[spaces.of_region[region]].law.kind;
+}
+
 /// As in three-injections a bursa on the line is what is meant; none when the target is in a cavity
 /// already or there is no bursa.
-std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Vec3& target) {
-  const auto spaces = make_joint_spaces(scene.joint());
-  if (!spaces) return std::nullopt;
-  const auto law = [&](RegionId r) {
-    return spaces->spaces[spaces->of_region[r]].law.kind;
-  };
-  if (law(scene.region_at(target)) == SpaceKind::cavity) return std::nullopt;
+std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Vec3& target,
+                                 const JointSpaces& spaces) {
+  if (kind_of(scene.region_at(target), spaces) == SpaceKind::cavity) return std::nullopt;
   const Vec3 direction = (target - entry).normalized();
   for (const TissueInterval& s :
        tissue_intervals(scene, {entry, target + kStartOutside * direction})) {
@@ -53,9 +57,12 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
   const Vec3 path = spec.target - spec.entry;
   if (!(path.norm() > 1e-6))
     return fail(ErrorCode::invalid, "entry and target are the same point", spec.name);
+  const auto spaces = make_joint_spaces(scene.joint());
+  ARTUS_TRY(spaces);
   plan.direction = path.normalized();
+  plan.wanted = path.norm();
   const std::optional<RegionId> into =
-      spec.into ? spec.into : bursa_on(scene, spec.entry, spec.target);
+      spec.into ? spec.into : bursa_on(scene, spec.entry, spec.target, *spaces);
   plan.by_name = into.has_value();
   plan.region = into.value_or(scene.region_at(spec.target));
   if (plan.region < kFirstRegion)
@@ -66,15 +73,18 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
                 "the line does not meet '" + scene.joint().regions[plan.region].name + "'",
                 spec.name);
   plan.layer = *layer;
+  plan.solid = kind_of(plan.region, *spaces) == SpaceKind::solid;
   return plan;
 }
 
-double stop_on(const LinePlan& plan, const InjectionSpec& spec, const JointSpaces& spaces,
-               double opening) {
-  const double wanted = (spec.target - spec.entry).norm();
-  if (plan.by_name) return tip_in_middle(plan.layer, opening);
-  const bool solid = spaces.spaces[spaces.of_region[plan.region]].law.kind == SpaceKind::solid;
-  return solid ? wanted : tip_near(plan.layer, opening, wanted);
+double stop_in(const LinePlan& plan, const LineLayer& now, double opening) {
+  if (plan.by_name) return tip_in_middle(now, opening);
+  const LineLayer& rest = plan.layer;
+  const bool inside = plan.wanted >= rest.from && plan.wanted <= rest.to && rest.to > rest.from;
+  const double share = inside ? (plan.wanted - rest.from) / (rest.to - rest.from) : 0.5;
+  const double beside = inside ? 0 : plan.wanted - middle_of(rest);
+  const double wanted = now.from + share * (now.to - now.from) + beside;
+  return plan.solid ? wanted : tip_near(now, opening, wanted);
 }
 
 }  // namespace artus

@@ -13,6 +13,8 @@ struct LinePlan {
   RegionId region = kOutside;  ///< to inject
   bool by_name = false;        ///< or the target's own
   LineLayer layer;             ///< of it, at rest
+  double wanted = 0;           ///< m along the line, the target
+  bool solid = false;          ///< nothing goes in: the target as it is
 };
 
 /// Where a spec's line goes. As in three-injections a bursa on it is what is meant, unless the
@@ -21,8 +23,8 @@ struct LinePlan {
 /// the structure).
 [[nodiscard]] Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec);
 
-/// m along the line where the tip stops, the bevel's opening (m) in the layer.
-[[nodiscard]] double stop_on(const LinePlan& plan, const InjectionSpec& spec,
-                             const JointSpaces& spaces, double opening);
+/// m along the line where the tip stops, the bevel's opening (m) in the layer as it is now: by
+/// `now`, the plan's own at rest.
+[[nodiscard]] double stop_in(const LinePlan& plan, const LineLayer& now, double opening);
 
 }  // namespace artus

@@ -118,11 +118,9 @@ std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& l
 class Trial {
  public:
   /// `out`: with spec and plunger. `recording`: or null.
-  Trial(const Scene& scene, const SessionParams& params, BevelPlaces places, InjectionRun& out,
-        Recording* recording)
+  Trial(const Scene& scene, const SessionParams& params, InjectionRun& out, Recording* recording)
       : spec_(out.spec),
         out_(out),
-        places_(std::move(places)),
         simulation_({std::shared_ptr<const void>(), &scene}, params),
         bevel_(bevel_length(out.plunger.needle.outer_diameter)) {
     hands_.set_thumb(DosingThumb(out.plunger, spec_.volume, spec_.rate_hz));
@@ -179,10 +177,10 @@ class Trial {
     out_.pressed = draw_health_question(simulation_);
   }
 
-  void aim_at(RegionId region, const LineLayer& planned) {
-    target_region_ = region;
-    planned_ = planned;
-    target_ = places_.of_region[region];
+  /// `space`: of the plan's region.
+  void aim_at(const LinePlan& plan, std::size_t space) {
+    plan_ = plan;
+    target_ = space;
     out_.target = plunger().spaces()[target_].name;
     out_.target_like = plunger().spaces()[target_].like;
   }
@@ -208,9 +206,6 @@ class Trial {
 
   [[nodiscard]] const Plunger& plunger() const { return simulation_.syringe().plunger(); }
   [[nodiscard]] const NeedleContact& contact() const { return simulation_.needle().contact(); }
-  [[nodiscard]] std::array<TipShare, 2> shares() const {
-    return bevel_shares(contact(), bevel_, places_);
-  }
 
   /// A tick, and the tissue's step where it is an image's.
   const HapticSnapshot& step(const InjectionOperator& person) {
@@ -231,13 +226,18 @@ class Trial {
     return view;
   }
 
-  /// Tissue that is pressed has its layers elsewhere: a picture tells by how much deeper the target
-  /// lies along the needle than it was planned.
+  /// Tissue that is pressed or opened has its layers elsewhere: a picture tells by how much deeper
+  /// the tip belongs along the needle than it was planned.
   void look() {
     if (body_ == simulation_.scene()) return;
     body_ = simulation_.scene();
-    const double middle = (planned_.from + planned_.to) / 2;
-    deeper_ = deeper_than_planned(contact(), target_region_, middle).value_or(deeper_);
+    const double middle = (plan_.layer.from + plan_.layer.to) / 2;
+    const auto seen = layer_seen(contact(), plan_.region, middle);
+    if (!seen) return;
+    const auto stop = [&](const LineLayer& layer) {
+      return stop_in(plan_, layer, bevel_);
+    };
+    deeper_ = stop({seen->entry, seen->exit}) - stop(plan_.layer);
   }
 
   /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
@@ -291,7 +291,7 @@ class Trial {
       out_.X_JN.translation() = contact().tick().tip;
       out_.depth = row.depth;
     }
-    const auto in = shares();
+    const auto& in = simulation_.syringe().tip();
     const std::size_t tip = in[0].share >= in[1].share ? in[0].space : in[1].space;
     std::string says = patient_says(plunger(), tip);
     if (!says.empty() && (out_.patient.empty() || out_.patient.back().text != says))
@@ -300,15 +300,13 @@ class Trial {
 
   const InjectionSpec& spec_;
   InjectionRun& out_;
-  BevelPlaces places_;
   Simulation simulation_;
   std::optional<SimulationRecorder> recorder_;  // empty: nobody wants it
   SimulatedHands hands_;
   std::optional<SeatedProbe> probe_;  // empty: the body is rigid
   double bevel_;                      // m
   std::size_t target_ = 0;
-  RegionId target_region_ = kOutside;
-  LineLayer planned_;                  // the target on the line at rest
+  LinePlan plan_;
   std::shared_ptr<const Scene> body_;  // last looked at
   double deeper_ = 0;                  // m along the needle, the target there
   std::vector<std::size_t> shown_;
@@ -372,15 +370,15 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   out.gave_way = params->deform;
   for (const Region& r : scene.joint().regions) out.regions.push_back(r.name);
   const double opening = bevel_length(out.plunger.needle.outer_diameter);
-  const double target = stop_on(*plan, spec, *spaces, opening);
+  const double target = stop_in(*plan, plan->layer, opening);
   const Vec3& direction = plan->direction;
   const Pose X_JN = make_pose(spec.entry + target * direction, direction, Vec3::Zero());
   out.X_JP = find_view_of(scene, X_JN, spec.transducer.width).X_JP;
   const double through = beyond(scene, out, plan->layer, direction, *spaces);
   InjectionOperator person(spec.entry, direction, -kStartOutside,
                            phases_of(out, plan->layer, target, through));
-  Trial trial(scene, *params, make_bevel_places(*spaces), out, recording);
-  trial.aim_at(plan->region, plan->layer);
+  Trial trial(scene, *params, out, recording);
+  trial.aim_at(*plan, spaces->of_region[plan->region]);
   ARTUS_TRY(trial.run(person));
   trial.finish();
   out.reached = std::any_of(out.rows.begin(), out.rows.end(),

@@ -49,21 +49,24 @@ struct TornFilms {
   std::uint32_t before = 0;
 };
 
-TornFilms films_of(std::span<const ShaftLayer> shaft, std::size_t k, double deepest,
-                   const BevelPlaces& places) noexcept {
+TornFilms films_of(const NeedleTick& tick, std::size_t k, const BevelPlaces& places,
+                   std::span<const double> lifted) noexcept {
+  const std::span<const ShaftLayer> shaft = tick.shaft;
   const ShaftLayer& s = shaft[k];
   TornFilms films{s.entry, s.exit, 0, 0};
   const std::uint32_t own = space_of(s.region, places);
   if (places.kinds[own] != SpaceKind::split) return films;
   for (std::size_t i = 0; i < shaft.size(); ++i) {
     const std::uint32_t space = space_of(shaft[i].region, places);
-    if (!is_cavity(space, places) || shaft[i].entry >= deepest) continue;
+    const double lift = space < lifted.size() ? lifted[space] : 0;
+    if (!is_cavity(space, places) || shaft[i].entry - lift >= tick.depth) continue;
     if (i < k && shaft[i].exit + kHoldingFilm > films.behind_to) {
       films.behind_to = std::min(shaft[i].exit + kHoldingFilm, s.exit);
       films.behind = space;
     }
-    if (i > k && shaft[i].entry - kHoldingFilm < films.before_from) {
-      films.before_from = std::max(shaft[i].entry - kHoldingFilm, s.entry);
+    const double from = shaft[i].entry - lift - kHoldingFilm;
+    if (i > k && from < films.before_from) {
+      films.before_from = std::max(from, s.entry);
       films.before = space;
     }
   }
@@ -80,7 +83,8 @@ BevelPlaces make_bevel_places(const JointSpaces& spaces) {
 }
 
 std::array<TipShare, 2> bevel_shares(const NeedleContact& contact, double bevel,
-                                     const BevelPlaces& places) noexcept {
+                                     const BevelPlaces& places,
+                                     std::span<const double> lifted) noexcept {
   std::array<TipShare, 2> shares{{{space_of(kOutside, places), 1}, {}}};
   if (!contact.inserted()) return shares;
   const NeedleTick& tick = contact.tick();
@@ -93,13 +97,14 @@ std::array<TipShare, 2> bevel_shares(const NeedleContact& contact, double bevel,
     const double from = std::max(s.entry, first);
     const double to = std::min(s.exit, tick.depth);
     if (!(to > from)) continue;
-    const TornFilms films = films_of(tick.shaft, k, tick.depth, places);
+    const TornFilms films = films_of(tick, k, places, lifted);
     parts.add(films.behind, from, std::min(to, films.behind_to));
     parts.add(space_of(s.region, places), std::max(from, films.behind_to),
               std::min(to, films.before_from));
     parts.add(films.before, std::max(from, films.before_from), to);
     if (s.region != contact.region()) continue;
     if (tick.depth <= films.behind_to && films.behind_to > s.entry) shares[0].space = films.behind;
+    if (tick.depth > films.before_from) shares[0].space = films.before;
   }
   shares[1] = parts.largest_but(shares[0].space);
   shares[1].share = std::clamp(shares[1].share / bevel, 0.0, 1.0);

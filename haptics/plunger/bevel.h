@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "artus/detail/anatomy/body/space.h"
@@ -30,8 +31,11 @@ struct BevelPlaces {
 /// In which places the opening of a needle's bevel lies: that of the tip and one more, by the
 /// bevel's length in each. Outside the body, in air. Where the tip is in a cavity or has passed
 /// one, tissue within kHoldingFilm of it along the needle counts for the cavity: such a film tears.
+/// So does what its liquid lifts off the tip: `lifted` m of tissue before a cavity, (n_spaces), or
+/// none.
 /// A thin layer between two others counts for what it takes of the bevel.
 [[nodiscard]] ARTUS_REALTIME std::array<TipShare, 2> bevel_shares(
-    const NeedleContact& contact, double bevel, const BevelPlaces& places) noexcept;
+    const NeedleContact& contact, double bevel, const BevelPlaces& places,
+    std::span<const double> lifted) noexcept;
 
 }  // namespace artus

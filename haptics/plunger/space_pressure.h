@@ -15,8 +15,9 @@ namespace artus {
 [[nodiscard]] ARTUS_REALTIME double slope_of(const SpaceLaw& law, double volume) noexcept;
 
 /// Pa s/m^3 between the tip and the rest of a film whose walls touch, for a liquid of `viscosity`
-/// Pa s: radial flow between plates, 6 mu ln(r_2/r_1)/(pi h^3), over a ratio of radii of 25. Gone
-/// after some tenths of a millilitre. 0 without a film.
+/// Pa s: radial flow between plates, 6 mu ln(r_2/r_1)/(pi h^3), over a ratio of radii of 25. They
+/// part around the tip first: h is the mean over a radius that grows as volume^(1/3), as drawn
+/// liquid does, to the whole film's at 3 ml (assumed). 0 without a film.
 [[nodiscard]] ARTUS_REALTIME double film_resistance(const SpaceLaw& law, double volume,
                                                     double viscosity) noexcept;
 

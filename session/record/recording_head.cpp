@@ -21,7 +21,8 @@ namespace {
 // and `given` counts what left the needle forward, so that a replay of before would differ.
 // 15: beams between beams, and every second plane's scatterers: pictures are others.
 // 16: look, grey curve, compounding, persistence and Doppler are turned in a session.
-constexpr int kVersion = 17;
+// 18: a bursa's film parts around the tip first, and a roof that liquid lifts leaves the bevel.
+constexpr int kVersion = 18;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

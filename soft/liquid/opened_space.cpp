@@ -12,13 +12,12 @@
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/disjoint_sets.h"
+#include "artus/detail/soft/liquid/lens.h"
 #include "artus/detail/soft/liquid/unfolded.h"
 
 namespace artus {
 namespace {
 
-constexpr double kWide = 29.5e-3;  // m, radius of a patch of kWideVolume in a wide space; fitted:
-constexpr double kWideVolume = 3e-6;  // m^3; 5 ml open by less than 6 mm
 constexpr double kThickest = 5e-3;    // m, above which it spreads as long as there is room; assumed
 constexpr double kSpread = 1.2;       // of its radius, from one try to the next
 constexpr int kHalvings = 20;
@@ -218,7 +217,7 @@ double OpenedSpace::reach_of(const Flow& flow, double volume) const {
     tried.reach_ = reach;
     return thickness(tried, volume);
   };
-  const double narrow = kWide * std::cbrt(volume / kWideVolume);
+  const double narrow = lens_radius(volume);
   const double wide = kAllOpen * cage_.extent();
   if (narrow >= wide || thick(narrow) <= kThickest) return narrow;
   double low = narrow;

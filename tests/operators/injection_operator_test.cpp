@@ -159,9 +159,11 @@ TEST(InjectionOperator, KeepsATipWhereItIsMeantWhenTissueComesOntoIt) {
   person.until_next();
   const double before = person.meant();
   person.view.depth = 13e-3;  // 3 mm too deep all along
-  person.until_next();
+  EXPECT_GE(person.until_next(1.2), 1.2) << "waited for";
   EXPECT_LT(person.meant(), before - 1e-3) << "drawn back";
   EXPECT_GT(person.meant(), before - 3e-3) << "slowly";
+  person.view.depth = 10.1e-3;
+  EXPECT_LT(person.until_next(), 2e-3) << "there";
   const double after = person.meant();
   person.until_next(0.5);
   EXPECT_NEAR(person.meant(), after, 1e-4) << "one that does not watch stays";

@@ -46,7 +46,7 @@ TEST(RealTimePlunger, ItsLawsNeitherAllocateNorLock) {
   const LayerTable table;
   const NeedleContact contact({}, {}, table, 1e-3);
   const BevelPlaces places{{0}, {SpaceKind::open}};
-  ARTUS_RUNS_REALTIME(bevel_shares, use(bevel_shares(contact, 1e-3, places)));
+  ARTUS_RUNS_REALTIME(bevel_shares, use(bevel_shares(contact, 1e-3, places, {})));
 }
 
 }  // namespace

@@ -71,12 +71,20 @@ TEST(SpacePressure, OfASplitFallsWithTheFifthRootOfItsVolume) {
   EXPECT_DOUBLE_EQ(opening_of(law, 0), law.opening);
 }
 
-TEST(SpacePressure, OfAClosedFilmIsTheCubeLawAndGoneAfterTenthsOfAMillilitre) {
+TEST(SpacePressure, OfAClosedFilmIsTheCubeLawOverThePatchThatIsParted) {
   const SpaceLaw law = law_of("bursa");
   // 0.1 ml/s of water between plates 0.05, 0.1 and 0.2 mm apart: 37, 4.6 and 0.6 mmHg.
-  EXPECT_NEAR(film_resistance(law, 0, 1e-3) * 1e-7 / kMercury, 37, 0.5);
-  EXPECT_NEAR(film_resistance(law, 0.1 * kCubicCentimetre, 1e-3) * 1e-7 / kMercury, 4.6, 0.1);
-  EXPECT_NEAR(film_resistance(law, 0.3 * kCubicCentimetre, 1e-3) * 1e-7 / kMercury, 0.58, 0.02);
+  const auto drop = [&](double volume) {
+    return film_resistance(law, volume, 1e-3) * 1e-7 / kMercury;
+  };
+  // Over 20 cm2 at 3 ml and a radius as the third root, V = (h 20 cm2)^3/(3 ml)^2 part by h.
+  const auto volume = [](double h) {
+    return std::pow(h * 20e-4, 3) / (3e-6 * 3e-6);
+  };
+  EXPECT_NEAR(drop(0), 37, 0.5);
+  EXPECT_NEAR(drop(volume(0.05e-3)), 4.6, 0.1);
+  EXPECT_NEAR(drop(volume(0.15e-3)), 0.58, 0.02);
+  EXPECT_NEAR(drop(6e-6), drop(0) * std::pow(0.05 / 3.05, 3), 1e-9) << "all of it, 3 mm";
   EXPECT_EQ(film_resistance(law_of("muscle"), 0, 1e-3), 0);
 }
 
