@@ -18,8 +18,8 @@
 namespace artus {
 namespace {
 
-constexpr double kThickest = 5e-3;    // m, above which it spreads as long as there is room; assumed
-constexpr double kSpread = 1.2;       // of its radius, from one try to the next
+constexpr double kThickest = 5e-3;  // m, above which it spreads as long as there is room; assumed
+constexpr double kSpread = 1.2;     // of its radius, from one try to the next
 constexpr int kHalvings = 20;
 constexpr double kMylar = 1.2185;  // of a disc's radius cubed
 constexpr double kStretched = 1.25;

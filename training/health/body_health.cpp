@@ -27,7 +27,7 @@ constexpr double kVolume = 2;           // %
 constexpr double kStrips = 2;           // %
 constexpr std::size_t kRays = 20000;    // through the liquid
 constexpr double kMinPiece = 1e-6;      // m^2
-constexpr double kLabelPixel = 0.1e-3;  // m
+constexpr double kLabelPixel = 0.05e-3;  // m
 constexpr double kMargin = 10e-3;       // m of label picture around what is shown
 constexpr double kMinLiquid = 0.05e-6;  // m^3, of less no share is told
 
