@@ -175,6 +175,7 @@ class Trial {
     }
     out_.complete = out_.given >= kNearlyAll * spec_.volume;
     out_.pressed = draw_health_question(simulation_);
+    if (out_.pressed && spec_.press == 0) out_.pressed->X_JP = out_.X_JP;  // a probe that hovers
   }
 
   /// `space`: of the plan's region.
