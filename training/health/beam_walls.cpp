@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "artus/detail/core/check.h"
@@ -11,19 +12,48 @@
 namespace artus {
 namespace {
 
-constexpr double kSteeper = 3;  // from beam to beam, of a round wall where it grows steep
+constexpr double kSteeper = 3;    // from beam to beam, of a round wall where it grows steep
+constexpr double kStretches = 2;  // times its length before, a wall at most; assumed
 
-/// The stretch of the next beam that lies beside this one for longest; null: none does.
-const BeamStretch* beside(const BeamStretch& one, const std::vector<BeamStretch>& next) {
-  const BeamStretch* found = nullptr;
-  double longest = 0;
-  for (const BeamStretch& other : next) {
-    const double shared = std::min(one.floor, other.floor) - std::max(one.roof, other.roof);
-    if (shared <= longest) continue;
-    longest = shared;
-    found = &other;
+using Stretches = std::vector<BeamStretch>;
+
+/// From the first roof to the last floor. Requires: one at least.
+BeamStretch hull(const Stretches& stretches) {
+  return {stretches.front().roof, stretches.back().floor};
+}
+
+/// The same of those that lie beside a stretch; nullopt: none does.
+std::optional<BeamStretch> beside(const BeamStretch& one, const Stretches& others) {
+  Stretches found;
+  for (const BeamStretch& other : others)
+    if (std::min(one.floor, other.floor) > std::max(one.roof, other.roof)) found.push_back(other);
+  return found.empty() ? std::nullopt : std::optional(hull(found));
+}
+
+/// What of two beams lies beside each other, directly or by others in between.
+struct Pair {
+  Stretches left;
+  Stretches right;
+};
+std::vector<Pair> pair_up(const Stretches& left, const Stretches& right) {
+  std::vector<Pair> pairs;
+  double floor = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = 0; i < left.size() || j < right.size();) {
+    const bool is_left = j == right.size() || (i < left.size() && left[i].roof < right[j].roof);
+    const BeamStretch& next = is_left ? left[i++] : right[j++];
+    if (next.roof >= floor) pairs.emplace_back();
+    (is_left ? pairs.back().left : pairs.back().right).push_back(next);
+    floor = std::max(floor, next.floor);
   }
-  return found;
+  return pairs;
+}
+
+/// The tissue between stretches.
+Stretches between(const Stretches& stretches) {
+  Stretches tissue;
+  for (std::size_t i = 0; i + 1 < stretches.size(); ++i)
+    tissue.push_back({stretches[i].floor, stretches[i + 1].roof});
+  return tissue;
 }
 
 /// By how much a wall goes too far from a beam to the next: a round one grows steep before it does
@@ -36,36 +66,75 @@ double sudden(double step, std::optional<double> before, std::optional<double> b
   return std::max(0.0, std::abs(step) - kSteeper * least);
 }
 
-/// The largest from one beam to the next, `before` and `behind` the beams that go on from there.
-double step_to(const std::vector<BeamStretch>& before, const std::vector<BeamStretch>& beam,
-               const std::vector<BeamStretch>& next, const std::vector<BeamStretch>& behind) {
-  double step = 0;
-  for (const BeamStretch& one : beam) {
-    const BeamStretch* last = beside(one, before);
-    const BeamStretch* other = beside(one, next);
-    using Step = std::optional<double>;
-    const Step roof = last ? Step(one.roof - last->roof) : Step();
-    const Step floor = last ? Step(one.floor - last->floor) : Step();
-    if (other == nullptr) {  // both walls meet
-      const Step narrower = last ? Step(std::max(*roof, -*floor)) : Step();
-      step = std::max(step, sudden((one.floor - one.roof) / 2, narrower, {}));
-      continue;
+/// The largest step from one of two beams to the other. `length_before`: m that the wall between
+/// the two was long, from one depth to another.
+template <class LengthBefore>
+class LargestStep {
+ public:
+  explicit LargestStep(LengthBefore length_before) : length_before_(length_before) {}
+
+  /// Of four beams that follow each other, from the second to the third.
+  void add_beams(const Stretches& before, const Stretches& left, const Stretches& right,
+                 const Stretches& behind) {
+    for (const Pair& pair : pair_up(left, right)) {
+      if (pair.right.empty()) {
+        add_end(hull(pair.left), before);
+      } else if (pair.left.empty()) {
+        add_end(hull(pair.right), behind);
+      } else {
+        add_walls(before, hull(pair.left), hull(pair.right), behind);
+        const Stretches tissue_left = between(pair.left);
+        const Stretches tissue_right = between(pair.right);
+        if (!tissue_left.empty() || !tissue_right.empty())
+          add_beams(between(before), tissue_left, tissue_right, between(behind));
+      }
     }
-    const BeamStretch* far = beside(*other, behind);
-    const Step far_roof = far ? Step(far->roof - other->roof) : Step();
-    const Step far_floor = far ? Step(far->floor - other->floor) : Step();
-    step = std::max({step, sudden(other->roof - one.roof, roof, far_roof),
-                     sudden(other->floor - one.floor, floor, far_floor)});
   }
-  return step;
-}
+  [[nodiscard]] double step() const { return step_; }
+
+ private:
+  void add(double sudden_step, double from, double to) {
+    if (sudden_step <= step_) return;
+    const double there = length_before_(std::min(from, to), std::max(from, to));
+    step_ = std::max(step_, sudden_step - kStretches * there);
+  }
+  /// Both walls meet.
+  void add_end(const BeamStretch& one, const Stretches& before) {
+    const auto last = beside(one, before);
+    using Step = std::optional<double>;
+    const Step narrower =
+        last ? Step(std::max(one.roof - last->roof, last->floor - one.floor)) : Step();
+    add(sudden((one.floor - one.roof) / 2, narrower, {}), one.roof, one.floor);
+  }
+  void add_walls(const Stretches& before, const BeamStretch& left, const BeamStretch& right,
+                 const Stretches& behind) {
+    const auto last = beside(left, before);
+    const auto far = beside(right, behind);
+    const auto add_wall = [&](double BeamStretch::*wall) {
+      using Step = std::optional<double>;
+      add(sudden(right.*wall - left.*wall, last ? Step(left.*wall - (*last).*wall) : Step(),
+                 far ? Step((*far).*wall - right.*wall) : Step()),
+          left.*wall, right.*wall);
+    };
+    add_wall(&BeamStretch::roof);
+    add_wall(&BeamStretch::floor);
+  }
+
+  LengthBefore length_before_;
+  double step_ = 0;
+};
 
 }  // namespace
 
-BeamWalls find_walls(const Scene& scene, const Pose& X_JP, const Transducer& transducer,
-                     double depth, const std::vector<bool>& regions) {
+Transducer spaced_evenly(const Transducer& transducer) {
   Transducer even = transducer;
   even.n_lines = static_cast<int>(transducer.width / kBeamSpacing) + 1;
+  return even;
+}
+
+BeamWalls find_walls(const Scene& scene, const Pose& X_JP, const Transducer& transducer,
+                     double depth, const std::vector<bool>& regions) {
+  const Transducer even = spaced_evenly(transducer);
   BeamWalls walls(static_cast<std::size_t>(even.n_lines));
   std::array<TissueInterval, 128> intervals;
   for (int i = 0; i < even.n_lines; ++i) {
@@ -83,23 +152,27 @@ BeamWalls find_walls(const Scene& scene, const Pose& X_JP, const Transducer& tra
   return walls;
 }
 
-std::vector<double> wall_steps(const BeamWalls& walls) {
+std::vector<double> wall_steps(const BeamWalls& walls, const SliceWall* wall) {
   std::vector<double> steps;
   const std::vector<BeamStretch> none;
   for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
     const auto& left = i > 0 ? walls[i - 1] : none;
     const auto& right = i + 2 < walls.size() ? walls[i + 2] : none;
-    steps.push_back(std::max(step_to(left, walls[i], walls[i + 1], right),
-                             step_to(right, walls[i + 1], walls[i], left)));
+    const auto length_before = [&](double from, double to) {
+      return wall != nullptr ? wall->length_before(i, from, to) : 0;
+    };
+    LargestStep largest(length_before);
+    largest.add_beams(left, walls[i], walls[i + 1], right);
+    steps.push_back(largest.step());
   }
   return steps;
 }
 
-WallJump find_wall_jump(const BeamWalls& before, const BeamWalls& after) {
+WallJump find_wall_jump(const BeamWalls& before, const BeamWalls& after, const SliceWall* wall) {
   ARTUS_REQUIRE(before.size() == after.size(), "as many beams before as after");
   constexpr std::size_t kBeside = 15;  // beams, 3 mm: liquid moves a wall aside
-  const std::vector<double> was = wall_steps(before);
-  const std::vector<double> is = wall_steps(after);
+  const std::vector<double> was = wall_steps(before, nullptr);
+  const std::vector<double> is = wall_steps(after, wall);
   WallJump out;
   for (std::size_t i = 0; i < is.size(); ++i) {
     const auto first = was.begin() + static_cast<std::ptrdiff_t>(i > kBeside ? i - kBeside : 0);

@@ -19,17 +19,17 @@
 namespace artus {
 namespace {
 
-constexpr double kWallJump = 0.5;       // mm
-constexpr double kLiftShare = 1.1;      // of the liquid, what the skin may be lifted by
-constexpr double kRayVolume = 0.01e-6;  // m^3 that rays so far from each other may miss
-constexpr double kLiftRest = 0.1e-6;    // m^3 beside that: steps of rays, the press
-constexpr double kVolume = 2;           // %
-constexpr double kStrips = 2;           // %
-constexpr std::size_t kRays = 20000;    // through the liquid
-constexpr double kMinPiece = 1e-6;      // m^2
+constexpr double kWallJump = 0.5;        // mm
+constexpr double kLiftShare = 1.1;       // of the liquid, what the skin may be lifted by
+constexpr double kRayVolume = 0.01e-6;   // m^3 that rays so far from each other may miss
+constexpr double kLiftRest = 0.1e-6;     // m^3 beside that: steps of rays, the press
+constexpr double kVolume = 2;            // %
+constexpr double kStrips = 2;            // %
+constexpr std::size_t kRays = 20000;     // through the liquid
+constexpr double kMinPiece = 1e-6;       // m^2
 constexpr double kLabelPixel = 0.05e-3;  // m
-constexpr double kMargin = 10e-3;       // m of label picture around what is shown
-constexpr double kMinLiquid = 0.05e-6;  // m^3, of less no share is told
+constexpr double kMargin = 10e-3;        // m of label picture around what is shown
+constexpr double kMinLiquid = 0.05e-6;   // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {
   return printed("%.1f, %.1f, %.1f mm", p_J.x() / kMillimetre, p_J.y() / kMillimetre,
@@ -77,8 +77,9 @@ class Examination {
         if (scene.joint().regions[r].name == "injected") regions[r] = false;
       return find_walls(scene, q_.X_JP, q_.transducer, depth, regions);
     };
+    const SliceWall wall(was_.mesh, now_.mesh, liquid_after_, q_.X_JP, q_.transducer);
     const WallJump jump =
-        find_wall_jump(in(*q_.before, liquid_before_), in(*q_.after, liquid_after_));
+        find_wall_jump(in(*q_.before, liquid_before_), in(*q_.after, liquid_after_), &wall);
     m.value = jump.jump / kMillimetre;
     m.where = printed("%.1f mm from the picture's left edge",
                       static_cast<double>(jump.beam) * kBeamSpacing / kMillimetre);

@@ -59,7 +59,7 @@ TEST(BeamWalls, AStripOfOneBeamIsAJump) {
 
 TEST(BeamWalls, AnIslandOfTissueInLiquidIsAJump) {
   BeamWalls island = lens_walls(6e-3);
-  island[100] = {{14e-3, 15e-3}, {17e-3, 20.05e-3}};
+  island[100] = {{14e-3, 15e-3}, {18e-3, 20.05e-3}};
   EXPECT_GT(find_wall_jump(lens_walls(0), island).jump, 1e-3);
 }
 

@@ -78,7 +78,7 @@ TEST(BodyHealth, ABlockWithSteepWallsJumps) {
   HealthQuestion q = question(lifted(block));
   q.liquid.volume = 6e-3 * 17e-3 * 17e-3;
   const BodyHealth health = measure_body_health(q);
-  EXPECT_GT(*health.at("wall_jump_mm").value, 0.6);
+  EXPECT_GT(*health.at("wall_jump_mm").value, 0.7);
   EXPECT_FALSE(health.sound());
 }
 
