@@ -29,6 +29,7 @@ constexpr std::size_t kRays = 20000;     // through the liquid
 constexpr double kMinPiece = 1e-6;       // m^2
 constexpr double kLabelPixel = 0.05e-3;  // m
 constexpr double kMargin = 10e-3;        // m of label picture around what is shown
+constexpr double kAbove = 25e-3;        // m of it above the face
 constexpr double kMinLiquid = 0.05e-6;   // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {
@@ -122,9 +123,9 @@ class Examination {
     Transducer wide = q_.transducer;
     ImageSettings settings = q_.settings;
     settings.pixel = kLabelPixel;
-    settings.depth += 2 * kMargin;
+    settings.depth += kAbove + kMargin;
     Pose X_JP = q_.X_JP;  // skin that rises past the face is seen
-    X_JP.translation() -= kMargin * X_JP.linear().col(2);
+    X_JP.translation() -= kAbove * X_JP.linear().col(2);
     const double margin = wide.radius == 0 ? kMargin : 0;
     wide.width += 2 * margin;
     const LabelRenderer renderer(wide, settings);
@@ -151,9 +152,7 @@ class Examination {
                     ""};
     if (!q_.pictures) return m;
     const auto share = [&](const std::shared_ptr<const Scene>& scene) {
-      ImageSettings settings = q_.settings;
-      settings.look = Look::raw;  // what steep walls do to a single ray, which other looks even out
-      Renderer renderer(scene, q_.transducer, settings);
+      Renderer renderer(scene, q_.transducer, q_.settings);
       return 100 * share_of_strips(renderer.render(q_.X_JP), q_.transducer.pitch());
     };
     const double was = share(q_.before);
