@@ -93,10 +93,11 @@ class LargestStep {
   [[nodiscard]] double step() const { return step_; }
 
  private:
-  void add(double sudden_step, double from, double to) {
+  /// `share`: of the wall from one depth to the other, what the step is.
+  void add(double sudden_step, double from, double to, double share = 1) {
     if (sudden_step <= step_) return;
-    const double there = length_before_(std::min(from, to), std::max(from, to));
-    step_ = std::max(step_, sudden_step - kStretches * there);
+    const double there = share * length_before_(std::min(from, to), std::max(from, to));
+    if (sudden_step > kStretches * there) step_ = sudden_step;
   }
   /// Both walls meet.
   void add_end(const BeamStretch& one, const Stretches& before) {
@@ -104,7 +105,7 @@ class LargestStep {
     using Step = std::optional<double>;
     const Step narrower =
         last ? Step(std::max(one.roof - last->roof, last->floor - one.floor)) : Step();
-    add(sudden((one.floor - one.roof) / 2, narrower, {}), one.roof, one.floor);
+    add(sudden((one.floor - one.roof) / 2, narrower, {}), one.roof, one.floor, 0.5);
   }
   void add_walls(const Stretches& before, const BeamStretch& left, const BeamStretch& right,
                  const Stretches& behind) {

@@ -31,11 +31,10 @@ inline constexpr double kBeamSpacing = 0.2e-3;
 /// By how much a wall jumps from each beam to the next, m (n_beams - 1): the largest of roofs and
 /// floors of stretches that lie beside each other; of a stretch that has none beside it, half of
 /// its length, since its walls meet at once, and so of tissue that begins in a stretch. Less three
-/// times what the same wall rises or falls
-/// the same way a beam before and behind, whichever is less: where a round wall lies along the
-/// beams it is as steep as one likes, but comes to it. And less twice what of the wall
-/// between the two beams was there before: a wall that has turned or stretched is whole, a ledge is
-/// not. `wall`: null: nothing is known of that.
+/// times what the same wall rises or falls the same way a beam before and behind, whichever is
+/// less: where a round wall lies along the beams it is as steep as one likes, but comes to it. None
+/// where the wall between the two beams was half as long before: one that has turned or stretched
+/// is whole, a ledge is not. `wall`: null: nothing is known of that.
 [[nodiscard]] std::vector<double> wall_steps(const BeamWalls& walls, const SliceWall* wall);
 
 /// A wall that jumps though the body at rest does not.

@@ -20,7 +20,8 @@ namespace artus {
 namespace {
 
 constexpr double kWallJump = 0.5;        // mm
-constexpr double kLiftShare = 1.1;       // of the liquid, what the skin may be lifted by
+constexpr double kLiftShare = 1.5;       // of the liquid, what the skin may be lifted by; assumed:
+                                         // where a stiff tendon turns, skin sinks beside it
 constexpr double kRayVolume = 0.01e-6;   // m^3 that rays so far from each other may miss
 constexpr double kLiftRest = 0.1e-6;     // m^3 beside that: steps of rays, the press
 constexpr double kVolume = 2;            // %
@@ -29,7 +30,7 @@ constexpr std::size_t kRays = 20000;     // through the liquid
 constexpr double kMinPiece = 1e-6;       // m^2
 constexpr double kLabelPixel = 0.05e-3;  // m
 constexpr double kMargin = 10e-3;        // m of label picture around what is shown
-constexpr double kAbove = 25e-3;        // m of it above the face
+constexpr double kAbove = 25e-3;         // m of it above the face
 constexpr double kMinLiquid = 0.05e-6;   // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {

@@ -103,7 +103,7 @@ TEST(BodyHealth, AStructureWhereItWasNotIsAPieceAndANeighbour) {
 
 TEST(BodyHealth, PicturesOfColumnsDisplacedAgainstEachOtherHaveStrips) {
   const auto columns = [](const Vec3& p) {
-    return static_cast<int>(std::floor(p.x() / 3e-3)) % 2 == 0 ? 3.5e-3 : 0;
+    return static_cast<int>(std::floor(p.x() / 1e-3)) % 2 == 0 ? 3.5e-3 : 0;
   };
   HealthQuestion q = question(lifted(columns));
   q.pictures = true;
