@@ -294,6 +294,8 @@ class Trial {
     }
     const auto& in = simulation_.syringe().tip();
     const std::size_t tip = in[0].share >= in[1].share ? in[0].space : in[1].space;
+    out_.reached =
+        out_.reached || (contact().inserted() && (in[0].space == target_ || tip == target_));
     std::string says = patient_says(plunger(), tip);
     if (!says.empty() && (out_.patient.empty() || out_.patient.back().text != says))
       out_.patient.push_back({row.time, std::move(says)});
@@ -382,8 +384,6 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   trial.aim_at(*plan, spaces->of_region[plan->region]);
   ARTUS_TRY(trial.run(person));
   trial.finish();
-  out.reached = std::any_of(out.rows.begin(), out.rows.end(),
-                            [&](const InjectionRow& row) { return row.region == plan->region; });
   return out;
 }
 

@@ -31,6 +31,7 @@ constexpr double kMinPiece = 1e-6;       // m^2
 constexpr double kLabelPixel = 0.05e-3;  // m
 constexpr double kMargin = 10e-3;        // m of label picture around what is shown
 constexpr double kAbove = 25e-3;         // m of it above the face
+constexpr double kAside = 3e-3;          // m that liquid moves tissue across the picture's plane
 constexpr double kMinLiquid = 0.05e-6;   // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {
@@ -130,8 +131,10 @@ class Examination {
     const double margin = wide.radius == 0 ? kMargin : 0;
     wide.width += 2 * margin;
     const LabelRenderer renderer(wide, settings);
-    const auto layout_of = [&](const Scene& scene, const std::vector<bool>& liquid) {
-      LabelImage labels = renderer.render(scene, X_JP);
+    const auto layout_of = [&](const Scene& scene, const std::vector<bool>& liquid, double aside) {
+      Pose X_JS = X_JP;
+      X_JS.translation() += aside * X_JP.linear().col(1);
+      LabelImage labels = renderer.render(scene, X_JS);
       const std::vector<std::string> injected{"injected"};
       join_liquid(labels, liquid, regions_named(scene.joint(), injected));
       const auto pixels = static_cast<int>(margin / kLabelPixel);
@@ -139,8 +142,10 @@ class Examination {
       return find_layout(labels, {pixels, labels.width - pixels, 0, labels.height - deep},
                          kMinPiece);
     };
-    return compare_layouts(layout_of(*q_.before, liquid_before_),
-                           layout_of(*q_.after, liquid_after_), now_,
+    RegionLayout before = layout_of(*q_.before, liquid_before_, 0);
+    for (const double aside : {-kAside, kAside})
+      before.add(layout_of(*q_.before, liquid_before_, aside));
+    return compare_layouts(before, layout_of(*q_.after, liquid_after_, 0), now_,
                            regions_named(now_, q_.liquid.parted));
   }
 

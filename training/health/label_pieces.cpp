@@ -79,6 +79,12 @@ void join_liquid(LabelImage& labels, const std::vector<bool>& liquid,
       region = is_parted[region] ? kPartedRegion : kLiquidRegion;
 }
 
+void RegionLayout::add(const RegionLayout& other) {
+  for (const auto& [region, n] : other.pieces) pieces[region] = std::max(pieces[region], n);
+  for (const auto& [pair, length] : other.contacts)
+    contacts[pair] = std::max(contacts[pair], length);
+}
+
 RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window, double min_area) {
   RegionLayout layout;
   constexpr RegionId kNone = 0xfffd;

@@ -35,6 +35,9 @@ struct RegionLayout {
                                    ///< tissue between them counts as theirs
   std::map<std::pair<RegionId, RegionId>, double> contacts;  ///< m along which two touch; smaller
                                                              ///< id first
+
+  /// Takes up what there is more of in another: a picture's neighbour, from which tissue may come.
+  void add(const RegionLayout& other);
 };
 
 /// Pieces that have at least `min_area` m^2 in the window, and who touches whom in it. Cost:

@@ -121,5 +121,18 @@ TEST(LabelPieces, WhatHangsTogetherBesideTheWindowIsOnePiece) {
   EXPECT_EQ(find_layout(joined, below, 1e-6).pieces.at(kMuscle), 1);
 }
 
+TEST(LabelPieces, WhatAPicturesNeighbourHasMayComeIntoIt) {
+  RegionLayout here;
+  here.pieces = {{4, 1}, {5, 2}};
+  here.contacts = {{{4, 5}, 1e-3}};
+  RegionLayout beside;
+  beside.pieces = {{5, 1}, {6, 1}};
+  beside.contacts = {{{4, 5}, 3e-3}, {{5, 6}, 2e-3}};
+  here.add(beside);
+  EXPECT_EQ(here.pieces, (std::map<RegionId, int>{{4, 1}, {5, 2}, {6, 1}}));
+  EXPECT_EQ(here.contacts.at({4, 5}), 3e-3);
+  EXPECT_EQ(here.contacts.at({5, 6}), 2e-3);
+}
+
 }  // namespace
 }  // namespace artus
