@@ -39,8 +39,8 @@ Result<PlannedInjection> line_of(const InjectionRequest& request, const Compiled
   return joint.injections[*at];
 }
 
-/// What the line is meant for: as asked, or the structure that the plan has its name from; kOutside:
-/// what is at the target.
+/// What the line is meant for: as asked, or the structure that the plan has its name from;
+/// kOutside: what is at the target.
 Result<RegionId> region_of(const InjectionRequest& request, const PlannedInjection& line,
                            const CompiledJoint& joint) {
   if (!request.into.empty()) return find_region(joint, request.into);
