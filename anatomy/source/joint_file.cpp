@@ -268,7 +268,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   joint.patient = std::move(*patient);
   const std::vector<std::string> variants =
       apply_patient(*document, joint.patient, choice.variants, problems);
-  joint.variants = choose_variants(*document, variants, problems);
+  joint.variants = choose_variants(*document, variants, choice.variants, problems);
   joint.shape = to_joint_shape(*document);
   TomlTable toml(*document, "joint", problems);
   read_identity(toml, joint);

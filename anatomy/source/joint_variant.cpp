@@ -116,15 +116,18 @@ class Filter {
   Problems& problems_;
 };
 
-void replace_parts(toml::table& joint, const std::vector<JointVariant>& variants) {
+void replace_parts(toml::table& joint, const std::vector<JointVariant>& variants,
+                   const std::vector<std::string>& asked) {
   for (const JointVariant& variant : variants) {
     if (!variant.chosen) continue;
     const toml::table& says = *joint.get("variant")->as_table()->get(variant.name)->as_table();
-    for (const std::string_view part : kReplaced)
+    for (const std::string_view part : kReplaced) {
+      if (part != kReplaced[0] && !is_there(asked, variant.name)) continue;
       if (const toml::table* own = says[part].as_table())
         joint.insert_or_assign(part, toml::table(*own));
       else if (const toml::array* list = says[part].as_array())
         joint.insert_or_assign(part, toml::array(*list));
+    }
   }
 }
 
@@ -144,12 +147,13 @@ std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants)
 
 std::vector<JointVariant> choose_variants(toml::table& joint,
                                           const std::vector<std::string>& chosen,
+                                          const std::vector<std::string>& asked,
                                           Problems& problems) {
   std::vector<JointVariant> variants = read_declared(joint, chosen, problems);
   const std::vector<std::string> known = declared_names(variants);
   for (const std::string& name : chosen)
     if (!is_there(known, name)) problems.add(joint, refusal_of(name, variants));
-  replace_parts(joint, variants);
+  replace_parts(joint, variants, asked);
   joint.erase("variant");
   Filter filter(known, chosen, problems);
   for (auto&& [key, node] : joint) {

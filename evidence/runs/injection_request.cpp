@@ -39,6 +39,15 @@ Result<PlannedInjection> line_of(const InjectionRequest& request, const Compiled
   return joint.injections[*at];
 }
 
+/// What the line is meant for: as asked, or the structure that the plan has its name from;
+/// kOutside: what is at the target.
+Result<RegionId> region_of(const InjectionRequest& request, const PlannedInjection& line,
+                           const CompiledJoint& joint) {
+  if (!request.into.empty()) return find_region(joint, request.into);
+  const auto named = find_region(joint, line.name);
+  return named ? *named : kOutside;
+}
+
 }  // namespace
 
 Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& request) {
@@ -61,14 +70,14 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& r
   spec.name = line->name;
   spec.entry = line->entry;
   spec.target = line->target;
-  if (request.into.empty()) return run_injection(scene, spec);
-  const auto into = find_region(scene.joint(), request.into);
+  const auto into = region_of(request, *line, scene.joint());
   ARTUS_TRY(into);
+  if (*into == kOutside) return run_injection(scene, spec);
   spec.into = *into;
   if (!find_layer(scene, spec.entry, (spec.target - spec.entry).normalized(), *spec.into)) {
     const auto found = find_line_into(scene, *spec.into);
     ARTUS_TRY(found);
-    spec.name = "line into " + request.into;
+    spec.name = "line into " + scene.joint().regions[*into].name;
     std::tie(spec.entry, spec.target) = *found;
   }
   return run_injection(scene, spec);

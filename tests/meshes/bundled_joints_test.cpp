@@ -129,29 +129,68 @@ bool is_in(const std::vector<Solid>& solids, const std::string& name, const Vec3
   return false;
 }
 
+struct OtherPlace {
+  const char* joint;
+  const std::vector<Solid>& solids;
+  const char* target;
+};
+
+/// A variant's one planned injection, in the plane of its probe, from the skin and past all bone.
+PlannedInjection expect_plan_of_variant(const OtherPlace& place) {
+  const JointFile joint = read_bundled_joint(place.joint);
+  EXPECT_EQ(joint.injections.size(), 1U);
+  const PlannedInjection pass = joint.injections.front();
+  EXPECT_NEAR(find_solid(place.solids, "body")(pass.entry), 0, 0.8e-3);
+  EXPECT_NEAR((joint.X_JP_default->inverse() * pass.target).y(), 0, 0.5e-3);
+  EXPECT_NEAR((joint.X_JP_default->inverse() * pass.entry).y(), 0, 0.5e-3);
+  EXPECT_TRUE(joint.X_JN_default->translation().isApprox(pass.target)) << "the needle's plan";
+  for (const Structure& s : joint.structures) {
+    if (s.tissue != "bone") continue;
+    const Field bone = find_solid(place.solids, s.name);
+    for (double at = 0; at <= 1; at += 0.05)
+      EXPECT_GT(bone(pass.entry + at * (pass.target - pass.entry)), 0) << s.name;
+  }
+  return pass;
+}
+
 TEST(BundledJoints, OtherPlacesOfElbowWristAndAnkleHaveTheirTargetsInThePlane) {
-  struct Place {
-    const char* joint;
-    std::vector<Solid> solids;
-    const char* target;
-  };
   const std::vector<Solid> elbow = make_elbow({});
   const std::vector<Solid> wrist = make_wrist({});
-  for (const Place& place :
-       {Place{"elbow+lateral_epicondyle", elbow, "radiohumeral_bursa"},
-        Place{"elbow+olecranon_bursa", elbow, "olecranon_bursa"},
-        Place{"wrist+first_compartment", wrist, "first_compartment_sheath"},
-        Place{"wrist+radiocarpal", wrist, "radiocarpal_recess"},
-        Place{"ankle+retrocalcaneal", make_ankle({}), "retrocalcaneal_bursa"}}) {
+  const std::vector<Solid> ankle = make_ankle({});
+  for (const OtherPlace& place :
+       {OtherPlace{"elbow+lateral_epicondyle", elbow, "radiohumeral_bursa"},
+        OtherPlace{"elbow+olecranon_bursa", elbow, "olecranon_bursa"},
+        OtherPlace{"wrist+first_compartment", wrist, "first_compartment_sheath"},
+        OtherPlace{"wrist+radiocarpal", wrist, "radiocarpal_recess"},
+        OtherPlace{"ankle+retrocalcaneal", ankle, "retrocalcaneal_bursa"}}) {
     SCOPED_TRACE(place.joint);
-    const JointFile joint = read_bundled_joint(place.joint);
-    ASSERT_EQ(joint.injections.size(), 1U);
-    const PlannedInjection& pass = joint.injections.front();
-    EXPECT_TRUE(is_in(place.solids, place.target, pass.target));
-    EXPECT_NEAR(find_solid(place.solids, "body")(pass.entry), 0, 0.8e-3);
-    EXPECT_NEAR((joint.X_JP_default->inverse() * pass.target).y(), 0, 0.5e-3);
-    EXPECT_NEAR((joint.X_JP_default->inverse() * pass.entry).y(), 0, 0.5e-3);
+    EXPECT_TRUE(is_in(place.solids, place.target, expect_plan_of_variant(place).target));
   }
+}
+
+TEST(BundledJoints, DiseasesOfShoulderKneeAndHipBringTheirOwnInjection) {
+  const std::vector<Solid> shoulder = make_shoulder({});
+  const std::vector<Solid> knee = make_knee({});
+  const std::vector<Solid> hip = make_hip({});
+  for (const OtherPlace& place :
+       {OtherPlace{"shoulder+acromioclavicular", shoulder, "acromioclavicular_cavity"},
+        OtherPlace{"shoulder+adhesive_capsulitis", shoulder, "posterior_recess"},
+        OtherPlace{"shoulder+effusion", shoulder, "posterior_recess"},
+        OtherPlace{"shoulder+calcific_deposit", shoulder, "calcific_deposit"},
+        OtherPlace{"shoulder+rotator_interval", shoulder, "peribursal_fat"},
+        OtherPlace{"knee+bakers_cyst", knee, "bakers_cyst"},
+        OtherPlace{"hip+iliopsoas_bursitis", hip, "iliopsoas_bursa"}}) {
+    SCOPED_TRACE(place.joint);
+    const PlannedInjection pass = expect_plan_of_variant(place);
+    EXPECT_LT(find_solid(place.solids, place.target)(pass.target), -0.3e-3);
+  }
+}
+
+TEST(BundledJoints, APatientsDiseaseLeavesTheInjectionsThatAreAskedFor) {
+  const JointFile joint = read_bundled_joint("shoulder@effusion=1,calcification=1");
+  ASSERT_EQ(joint.injections.size(), 3U);
+  EXPECT_EQ(joint.injections.front().name, "bursa_over_tendon");
+  EXPECT_TRUE(joint.X_JP_default->isApprox(*read_bundled_joint("shoulder").X_JP_default));
 }
 
 TEST(BundledJoints, ElbowWristAndAnkleLandmarksLieOnTheirBones) {

@@ -128,7 +128,7 @@ TEST_F(Parameters, OfNobodyTheTableOnlyForgetsItsParameters) {
   EXPECT_TRUE(problems.empty());
   EXPECT_FALSE(joint.contains("parameter"));
   EXPECT_FALSE(joint.contains("tissue"));
-  const auto variants = choose_variants(joint, {"tear"}, problems);
+  const auto variants = choose_variants(joint, {"tear"}, {}, problems);
   EXPECT_EQ(chosen_names(variants), std::vector<std::string>{"tear"});
 }
 

@@ -90,7 +90,7 @@ TEST(JointVariant, NoWordOfThemIsLeft) {
   auto table = parse_toml(kElbow, "elbow");
   ASSERT_TRUE(table);
   Problems problems;
-  const auto declared = choose_variants(*table, {"effusion"}, problems);
+  const auto declared = choose_variants(*table, {"effusion"}, {"effusion"}, problems);
   EXPECT_TRUE(problems.empty());
   EXPECT_EQ(declared.size(), 2U);
   std::ostringstream left;
