@@ -18,7 +18,8 @@ namespace {
 constexpr double kShapeTime = 0.06;      // s that the first shape may take: a flow is seen at once
 constexpr double kGrowthTime = 0.3;      // s that a later one may: images need not wait for it
 constexpr double kVisible = 1e-9;        // m^3, of a shape's first liquid and least growth
-constexpr double kLeastKept = 0.5;       // of a volume, by a press; less is not made up for
+constexpr double kLeastKept = 0.8;       // of a volume, by a press; less is not made up for
+constexpr double kNearlyMost = 0.999;
 constexpr double kMissed = 5e-3;         // of a volume, by which a shape may be wrong
 constexpr double kStill = 1e-12;         // m^3 from image to image, of liquid that rests
 constexpr double kGrowth = 0.03;         // of what is there: 0.1 mm of a bursa that is 10 mm open
@@ -85,7 +86,11 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
     return shape;
   }
   shape.made = more;
-  shape.more = 1 / std::max(kLeastKept, kept_volume(*shape.joint, *joint, *tissue));
+  const double kept = kept_volume(*shape.joint, *joint, *tissue);
+  shape.more = 1 / std::max(kLeastKept, kept);
+  // What a press drives out is elsewhere in the space.
+  if (more >= kNearlyMost / kLeastKept)
+    shape.left_out += std::max(0.0, 1 - kept * more) * (volume_of(places) - shape.left_out);
   shape.map = map_of(*shape.joint, *tissue, before);
   return shape;
 }
