@@ -33,6 +33,18 @@ Space surroundings() {
   return space;
 }
 
+/// Whether a place parts and is full of something that runs out of it again: a deposit's slurry.
+/// Other tissue keeps what has parted it.
+bool is_washed(const Space& space) noexcept {
+  return space.law.kind == SpaceKind::split && !space.liquid.empty();
+}
+
+/// Pa that push out of what is washed: its walls spring back from where they were parted by `more`
+/// m^3, and are sucked together where more was drawn than put in. assumed: in this course
+double springs_back(double pressure, double more, double contents) noexcept {
+  return pressure * more / std::max(more + contents, 1e-3 * contents);
+}
+
 }  // namespace
 
 Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double dt)
@@ -163,14 +175,16 @@ Plunger::Branch Plunger::branch(const PlungerInput& input, std::size_t which, do
   const SpaceState& s = states_[tip.space];
   if (!s.open || !(tip.share > 0)) return {};
   const SpaceLaw& law = spaces_[tip.space].law;
-  // What has parted tissue stays there.
-  if (!out && (law.kind == SpaceKind::split || flow_in(tip) == nullptr)) return {};
+  const bool stays = law.kind == SpaceKind::split && !is_washed(spaces_[tip.space]);
+  if (!out && (stays || flow_in(tip) == nullptr)) return {};
   const double volume = s.volume - s.drawn;
   const double near = bevel_share_ * own_.resistance() + law.resistance +
                       film_resistance(law, volume + step / 2 * flows_[which],
                                       params_.liquid.viscosity.at(kFilmRate));
   // Never so much that the bore would seem to help.
   const double min = -kMaxFall * bevel_share_ * own_.resistance();
+  if (!out && is_washed(spaces_[tip.space]))
+    return {true, springs_back(pressure(tip.space), volume, law.contents), near / tip.share};
   return {true, pressure(tip.space), near / tip.share + std::max(min, step * rise(tip.space) / 2)};
 }
 
@@ -230,10 +244,14 @@ void Plunger::change_volume(std::size_t space, double by) noexcept {
   if (s.volume >= law.rupture) s.ruptured = true;
 }
 
-/// What was put in comes out first, then the place's own.
+/// What was put in comes out first, then the place's own; what is washed comes out mixed.
 void Plunger::take_out(std::size_t space, double volume) noexcept {
   SpaceState& s = states_[space];
-  const double own = std::max(0.0, volume - s.volume);
+  double own = std::max(0.0, volume - s.volume);
+  if (is_washed(spaces_[space])) {
+    const double left = std::max(0.0, spaces_[space].law.contents - s.drawn);
+    own = std::max(own, volume * left / std::max(left + s.volume, volume));
+  }
   change_volume(space, own - volume);
   s.drawn += own;
   state_.drawn += own;

@@ -49,6 +49,17 @@ TEST_F(SyringeReadingTest, TellsWhatIsLeftAndIsSilentUntilItIsUsed) {
   EXPECT_EQ(reading.pressure, 2e3);
 }
 
+TEST_F(SyringeReadingTest, TellsWhatWasDrawnBackOnceItIsInTheBarrel) {
+  const RegionId bursa = scene_->region_at(Vec3(0, 0, 12e-3));
+  spaces_.spaces[spaces_.of_region[bursa]].liquid = "effusion";
+  PlungerFeedback felt;
+  felt.drawn = 0.2e-6;
+  EXPECT_EQ(read(12e-3, felt).drawn, 0) << "in the bore";
+  felt.status = PlungerStatus::kFlash;
+  EXPECT_EQ(read(12e-3, felt).drawn, 0.2e-6);
+  EXPECT_EQ(read(12e-3, felt).own, "effusion");
+}
+
 TEST_F(SyringeReadingTest, ThePatientFeelsWhereItGoesAndHowFast) {
   PlungerFeedback felt;
   felt.flow = 1e-7;

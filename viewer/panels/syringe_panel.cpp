@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <array>
+#include <string>
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {
@@ -26,6 +28,12 @@ void draw_syringe(const PanelInput& in, const ViewState& state) {
       fill(translate(state, "thumb {} N, {} kPa at the tip"),
            {number(language, syringe.thumb, 1), number(language, 1e-3 * syringe.pressure, 0)}),
       kRead);
+  if (!(syringe.drawn > 0)) return;
+  const std::string own = syringe.own.empty() ? translate(state, "the patient's own")
+                                              : clinical_name(language, std::string(syringe.own));
+  wrapped_text(fill(translate(state, "drawn back into the syringe: {} ml of {}"),
+                    {number(language, syringe.drawn / kCubicCentimetre, 2), own}),
+               kRead);
 }
 
 void draw_patient_words(const PanelInput& in, const ViewState& state) {

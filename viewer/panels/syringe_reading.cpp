@@ -14,6 +14,7 @@ SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
   reading.used = now.input.device.plunger != PlungerSign::none || felt.given > 0;
   reading.left = std::max(0.0, params.syringe.filled - felt.given);
   reading.given = felt.given;
+  if ((felt.status & PlungerStatus::kFlash) != 0) reading.drawn = felt.drawn;
   reading.flow = felt.flow;
   reading.thumb = felt.thumb_force;
   reading.pressure = felt.tip_pressure;
@@ -22,6 +23,7 @@ SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
       scene.region_at(X_JN * Vec3(0, 0, -bevel_middle(params.needle_shape.outer_diameter)));
   if (!reading.used || now.inserted == 0 || region >= spaces.of_region.size()) return reading;
   const Space& space = spaces.spaces[spaces.of_region[region]];
+  reading.own = space.liquid;
   double inside = space.law.kind == SpaceKind::open ? felt.given : 0;  // m^3; it is not told of
   for (std::uint32_t k = 0; k < now.n_sites; ++k)
     if (now.sites[k].region < spaces.of_region.size() &&

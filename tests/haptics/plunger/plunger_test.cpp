@@ -234,6 +234,40 @@ TEST(Plunger, DrawsNothingFromTissueAndCannotPullMoreThanAVacuum) {
   EXPECT_NE(plunger.state().status & PlungerStatus::kLimited, 0U);
 }
 
+TEST(Plunger, WashesSlurryOutOfADepositThatItHasOpenedALittleLessEachTime) {
+  SpaceLaw law;
+  law.kind = SpaceKind::split;
+  law.opening = 100e3;
+  law.peak = 200e3;
+  law.peak_volume = 2e-8;
+  law.contents = 0.16e-6;
+  PlungerParams params = water_syringe();
+  params.syringe.filled = 5e-6;
+  params.liquids = {Liquid{"slurry", {20e-3, 20e-3, 0, 1}, 1400, "fluid", 0, 0, 0, ""}};
+  std::vector<Space> spaces = one_space(law);
+  spaces[0].liquid = "slurry";
+  Plunger plunger(params, spaces, 1e-3);
+  for (int k = 0; k < 1000; ++k) plunger.step(thumb(-10));
+  EXPECT_EQ(plunger.state().drawn, 0) << "not opened yet";
+  double before = 0;
+  double washed = law.contents;
+  for (int wash = 0; wash < 4; ++wash) {
+    for (int k = 0; k < 20000 && plunger.states()[0].volume < 0.5e-6; ++k) plunger.step(thumb(40));
+    EXPECT_GE(plunger.states()[0].volume, 0.5e-6);
+    for (int k = 0; k < 3000; ++k) plunger.step(thumb(-10));
+    const SpaceState& s = plunger.states()[0];
+    const double now = plunger.state().drawn - before;
+    EXPECT_GT(now, 0) << wash;
+    EXPECT_LT(now, washed) << wash;
+    EXPECT_LE(s.drawn, law.contents);
+    EXPECT_NEAR(s.volume - s.drawn, 5e-6 - plunger.state().content, 1e-15);
+    washed = now;
+    before = plunger.state().drawn;
+  }
+  EXPECT_GT(plunger.state().drawn, 0.9 * law.contents);
+  EXPECT_NE(plunger.state().status & PlungerStatus::kFlash, 0U) << "a cloud in the syringe";
+}
+
 TEST(Plunger, OpensATendonOnlyAboveItsOpeningPressureAndForgetsWhenTheTipMoved) {
   SpaceLaw law;
   law.kind = SpaceKind::split;
