@@ -9,7 +9,7 @@
 
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/training/limits.h"
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {

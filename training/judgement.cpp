@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "artus/detail/training/limits.h"
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {
@@ -76,6 +76,14 @@ int whole_points(double score) noexcept {
   return static_cast<int>(std::floor(score + kRounding));
 }
 
+std::vector<Mark> safety_marks() {
+  static_assert(kMostPressureKpa == 100, "as it is written below");
+  return {{"avoid_fatal", Relation::equal, 0, "== 0"},
+          {"avoid_entries", Relation::equal, 0, "== 0"},
+          {"withdrawn", Relation::equal, 1, "== 1"},
+          {"pressure_peak_kpa", Relation::at_most, kMostPressureKpa, "<= 100"}};
+}
+
 MarkKind kind_of_mark(std::string_view metric) noexcept {
   constexpr std::array<std::string_view, 7> kDangers{
       "asked",           "withdrawn", "bone_contacts", "bone_peak_n", "pressure_peak_kpa",
@@ -98,6 +106,20 @@ bool needs_force(std::string_view metric) noexcept {
 }
 
 namespace {
+
+/// Whether something of harm or of the purpose went wrong that fails nobody: bone was met, liquid
+/// went astray or was given without aspirating, the needle advanced unseen or ended off the target,
+/// where no mark allows it.
+bool is_flawed(std::span<const Metric> metrics, std::span<const Mark> marks) {
+  const auto beyond = [&](const char* metric, double bound) {
+    const bool own = std::any_of(marks.begin(), marks.end(),
+                                 [&](const Mark& mark) { return mark.metric == metric; });
+    return !own && value_of(metrics, metric) > bound;
+  };
+  return beyond("bone_contacts", 0) || beyond("distance_mm", kMostOffTargetMm) ||
+         unseen_mm(metrics) > kMostUnseenMm || misplaced_ml(metrics) > kMostMisplacedMl ||
+         is_unaspirated(metrics);
+}
 
 /// A mark against the metrics. Empty: it needs a force that nobody felt.
 std::optional<JudgedMark> judge_mark(const Mark& mark, std::span<const Metric> metrics,

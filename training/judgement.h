@@ -68,8 +68,12 @@ struct ScoreWeight {
   double weight = 1;
 };
 
-/// `metrics` against `marks`, and against the marks of safety of every task (limits.h) that `marks`
-/// do not set otherwise; of these the missed ones stand among `marks`. `felt`: the hands
+/// Marks of danger of every task: nothing that is to be spared is entered, the needle is out at the
+/// end, the syringe is not forced.
+[[nodiscard]] std::vector<Mark> safety_marks();
+
+/// `metrics` against `marks`, and against the marks of safety of every task that `marks` do not set
+/// otherwise; of these the missed ones stand among `marks`. `felt`: the hands
 /// gave force; else marks that need it are left out and kept as unjudged.
 [[nodiscard]] Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                               std::span<const ScoreWeight> weights, bool with_aids,

@@ -22,8 +22,9 @@ constexpr int kBeside = 8;            // the first one that is beside it
 constexpr double kSmoothed = 0.1e-3;  // m to either side along the beam, that nulls count less
 constexpr std::size_t kFewest = 4;    // lines beside it
 constexpr double kShownRange = 60;    // dB under the brightest, below which a screen shows nothing
-constexpr double kChoice = 4;  // dB by which the brightest of those lines stands out of speckle;
-                               // fitted: up to 5.6 of a needle 1.9 mm beside the plane
+// dB by which the brightest of those lines stands out of speckle; fitted: with it a needle in the
+// plane is seen in all of 220 pictures, one whose echo is 7 dB below muscle's in none of 170.
+constexpr double kChoice = 2;
 // A shaft that crosses the plane, a point.
 constexpr double kDisc = 0.75e-3;       // m, radius
 constexpr double kInner = 2e-3;         // m

@@ -64,7 +64,7 @@ std::optional<double> contrast_of_line(const std::function<double(double, double
 double even(double, double) {
   return 1;
 }
-constexpr double kChoice = 4;  // dB that the brightest of a few lines has of itself
+constexpr double kChoice = 2;  // dB that the brightest of a few lines has of itself
 
 TEST(NeedleContrast, IsThatOfTheShaftsEndBesideItLessTheChoiceOfItsLine) {
   const auto contrast = contrast_of_line(even);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/training/limits.h"
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {

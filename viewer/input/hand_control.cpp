@@ -108,10 +108,10 @@ namespace {
 /// Whether the tip lies as deep under the skin as tissue holds it, or as it did before.
 bool stays_in(const Pose& X_WN, const Pose& before, const BodyContact& body) {
   constexpr double kHeld = 2e-3;    // m; assumed: a tip nearer to the skin comes out of it
-  constexpr double kReach = 20e-3;  // m
+  constexpr double kUnder = 20e-3;  // m
   if (body.scene == nullptr) return true;
   const auto deep = [&](const Pose& X) {
-    return -body.scene->signed_distance_to_skin(body.X_WJ.inverse() * X.translation(), kReach);
+    return -body.scene->signed_distance_to_skin(body.X_WJ.inverse() * X.translation(), kUnder);
   };
   return deep(X_WN) >= std::min(kHeld, deep(before)) - 1e-6;
 }

@@ -2,9 +2,8 @@
 #pragma once
 #include <span>
 #include <string>
-#include <vector>
 
-#include "artus/detail/training/judgement.h"
+#include "artus/detail/training/metrics/metric.h"
 
 namespace artus {
 
@@ -16,15 +15,6 @@ inline constexpr double kMostOffTargetMm = 1.5;
 inline constexpr double kMostUnseenMm = 1;
 inline constexpr double kMostMisplacedMl = 0.5;
 inline constexpr double kGivenMl = 0.1;  ///< from which something was injected
-
-/// Marks of danger of every task: nothing that is to be spared is entered, the needle is out at the
-/// end, the syringe is not forced.
-[[nodiscard]] std::vector<Mark> safety_marks();
-
-/// Whether something of harm or of the purpose went wrong that fails nobody: bone was met, liquid
-/// went astray or was given without aspirating, the needle advanced unseen or ended off the target,
-/// where no mark of `marks` allows it.
-[[nodiscard]] bool is_flawed(std::span<const Metric> metrics, std::span<const Mark> marks);
 
 /// A metric's value; 0 where there is none.
 [[nodiscard]] double value_of(std::span<const Metric> metrics, const std::string& name);
