@@ -32,7 +32,9 @@ TEST_P(FreeView, NothingOfThePersonStandsBeforeTheJoint) {
     const double now = covered_share(**body, camera);
     EXPECT_LE(now, asked);
     EXPECT_LT(now, 0.08) << "before: " << asked;
-    if (asked <= 0.05) EXPECT_EQ(camera.yaw, -1.15) << "a free view stays as it is";
+    if (asked <= 0.05) {
+      EXPECT_EQ(camera.yaw, -1.15) << "a free view stays as it is";
+    }
   }
 }
 
