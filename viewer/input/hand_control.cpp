@@ -131,8 +131,7 @@ void HandControl::steer_needle(double x, double y, double slide, double turn,
       keep_turn(X, *ground.entry_W);
       return X;
     };
-    const double asked = turn * std::hypot(x, y);
-    double share = std::min(1.0, kMostAtOnce / std::max(asked, 1e-9));
+    double share = 1;
     X_WN = turned(share);
     for (int i = 0; i < kLooks && !stays_in(X_WN, before, ground.body); ++i)
       X_WN = turned(i + 1 < kLooks ? share *= 0.7 : 0);
@@ -264,12 +263,15 @@ bool HandControl::handle(Action action, bool fine, const HandGround& ground) {
 }
 
 void HandControl::move_in_hand(double dx, double dy, bool tilt, const HandGround& ground) {
-  if (grab_ == Grab::probe && tilt)
+  if (grab_ == Grab::probe && tilt) {
     tilt_probe(kTurn * dx, kTurn * dy);
-  else if (grab_ == Grab::probe)
+  } else if (grab_ == Grab::probe) {
     slide_probe(kSlide * dx, kSlide * dy, ground);
-  else if (grab_ == Grab::needle)
-    steer_needle(dx, dy, kSlide, kTurn, ground);
+  } else if (grab_ == Grab::needle) {
+    const double asked = ground.entry_W ? kTurn * std::hypot(dx, dy) : 0;
+    const double share = asked > kMostAtOnce ? kMostAtOnce / asked : 1;
+    steer_needle(share * dx, share * dy, kSlide, kTurn, ground);
+  }
 }
 
 bool HandControl::handle_move(const MoveEvent& move, const HandGround& ground) {

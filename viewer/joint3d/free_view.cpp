@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/viewer/joint3d/free_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "artus/detail/core/units.h"
@@ -26,22 +27,25 @@ double covered_share(const OutsideBody& body, const OrbitCamera& camera) {
   return covered / (4 * kHalfAngle * kHalfAngle);
 }
 
-double find_free_yaw(const OutsideBody& body, OrbitCamera camera) {
+OrbitCamera find_free_view(const OutsideBody& body, const OrbitCamera& asked) {
   constexpr double kStep = 15 * kDegree;
-  constexpr int kSteps = 12;
+  constexpr int kSteps = 12;     // to either side: all around
+  constexpr double kRise = 0.3;  // rad
   constexpr double kFree = 0.05;
-  const double asked = camera.yaw;
-  double best = asked;
-  double least = 2;
-  for (int i = 0; i <= kSteps; ++i)
-    for (const double turn : {i * kStep, -i * kStep}) {
-      camera.yaw = asked + turn;
-      const double share = covered_share(body, camera);
-      if (share <= kFree) return camera.yaw;
-      if (share >= least) continue;
-      least = share;
-      best = camera.yaw;
-    }
+  OrbitCamera best = asked;
+  double least = 1e9;
+  for (const double rise : {0.0, kRise, 2 * kRise})
+    for (int i = 0; i <= kSteps; ++i)
+      for (const double turn : {i * kStep, -i * kStep}) {
+        OrbitCamera camera = asked;
+        camera.yaw += turn;
+        camera.pitch += rise;
+        const double share = covered_share(body, camera);
+        if (share <= kFree) return camera;
+        if (share >= least) continue;
+        least = share;
+        best = camera;
+      }
   return best;
 }
 

@@ -9,8 +9,9 @@ namespace artus {
 /// before the joint. Requires: a body with a hole. Cost: linear in its triangles.
 [[nodiscard]] double covered_share(const OutsideBody& body, const OrbitCamera& camera);
 
-/// The yaw nearest to `camera`'s from which the person leaves the joint in sight, a twentieth of
-/// the picture covered at most; where there is none, the freest. Turned by steps of 15 degrees.
-[[nodiscard]] double find_free_yaw(const OutsideBody& body, OrbitCamera camera);
+/// The camera nearest to the one that is asked for from which the person leaves the joint in sight,
+/// a twentieth of the picture covered at most; where there is none, the freest. It is turned by
+/// steps of 15 degrees, then raised by 0.3 rad, twice at most.
+[[nodiscard]] OrbitCamera find_free_view(const OutsideBody& body, const OrbitCamera& asked);
 
 }  // namespace artus

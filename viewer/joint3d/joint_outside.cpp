@@ -47,7 +47,7 @@ Result<void> JointView::show_outside(std::shared_ptr<const OutsideBody> outside)
   skin_.set_normals(smooth_normals(outside_->skin));
   skin_.set_triangles(indices);
   camera_.distance = kUsualDistance;
-  if (outside_->hole) camera_.yaw = find_free_yaw(*outside_, camera_);
+  if (outside_->hole) camera_ = find_free_view(*outside_, camera_);
   return {};
 }
 
