@@ -39,10 +39,11 @@ constexpr const char* kDefinitions[] = {
     msgid("tip to image plane, inside"),
     msgid("its 90th percentile"),
     msgid("shaft to image plane, inside"),
-    msgid("share of the time in tissue with the tip 4 dB above what is around it in the pictures "
-          "of that moment, where its echo is not 12 dB below muscle's; without pictures, with it "
-          "between the outermost lines, not shadowed, and its echo 6 dB above muscle after what "
-          "angle and distance to the plane take"),
+    msgid(
+        "share of the time in tissue with the last 5 mm of the shaft, and the last 2 mm alone, 4 "
+        "dB above lines beside it in the pictures of that moment, where its echo is not 12 dB "
+        "below muscle's; without pictures, with the tip between the outermost lines, not shadowed, "
+        "and its echo 6 dB above muscle after what angle and distance to the plane take"),
     msgid("runs of 1 mm or more advanced in tissue while the tip is not seen, ended by 3 s without "
           "advance; each 5 mm of one beyond the way to the picture's edge is one more"),
     msgid("distance advanced in those runs"),
@@ -86,8 +87,9 @@ constexpr const char* kDefinitions[] = {
     msgid("pauses of 2 s or more between two flows"),
     msgid("times that the barrel's pressure was below -5 kPa for 2 s or more"),
     msgid("1 when one of them came before anything was given"),
-    msgid("share of the pictures in tissue in which the disc of 1.5 mm where the tip shows is 4 dB "
-          "above what is typical of the ring of 2 to 4 mm around it beside the shaft"),
+    msgid("share of the pictures in tissue in which the last 5 mm of the shaft, and the last 2 mm "
+          "alone, are 4 dB above lines that run beside it; a shaft across the plane: the disc of "
+          "1.5 mm where the tip shows above what is typical of the ring of 2 to 4 mm around it"),
     msgid("that contrast's median"),
     msgid("mean over 10 ms at 100 Hz, zero-phase Butterworth of order 2 at 6 Hz"),
     msgid("none, every tick"),

@@ -36,6 +36,7 @@ void ToldFile::tell(const Page& page) {
 
 void ToldFile::tell(const WindowStatus& window) {
   constexpr double kSteps = 10;  // of a millimetre
+  constexpr double kHundreds = 100;
   write({{"task", window.task},
          {"goal", window.goal},
          {"next", window.next},
@@ -44,6 +45,7 @@ void ToldFile::tell(const WindowStatus& window) {
          {"remark", window.remark},
          {"picture", window.has_image},
          {"inside", window.needle.inside},
+         {"flow_ml_s", std::round(kHundreds * window.syringe.flow / kCubicCentimetre) / kHundreds},
          {"in_hand", window.grab != Grab::nothing},
          {"depth_mm", std::round(kSteps * window.needle.depth / kMillimetre) / kSteps}});
 }

@@ -9,6 +9,7 @@
 
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {
@@ -21,46 +22,29 @@ struct Kind {
   double band;
 };
 constexpr Kind kAvoid{"avoid_depth_mm", 5, 0.5};
-constexpr Kind kOffTarget{"distance_mm", 5, 1.5};
-constexpr Kind kUnseen{"unseen_mm", 4, 1};
+constexpr Kind kOffTarget{"distance_mm", 5, kMostOffTargetMm};
+constexpr Kind kUnseen{"unseen_mm", 4, kMostUnseenMm};
 constexpr Kind kBone{"bone_contacts", 3, 1};
 constexpr Kind kDrift{"drift_mm_s", 3, 0.5};
 constexpr Kind kPasses{"passes", 3, 2};
 constexpr Kind kAngle{"face_angle_median_deg", 2, 50};
 constexpr Kind kIdle{"idle_s", 1, 10};
-constexpr Kind kMisplaced{"misplaced_ml", 5, 0.5};  // given_ml beside in_target
+constexpr Kind kMisplaced{"misplaced_ml", 5, kMostMisplacedMl};  // given_ml beside in_target
 constexpr Kind kUnaspirated{"aspirated_first", 4, 1};
-constexpr Kind kPressure{"pressure_peak_kpa", 4, 100};
+constexpr Kind kPressure{"pressure_peak_kpa", 4, kMostPressureKpa};
 constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
 constexpr double kLeftIn = 12;    // weight: the worst that a hand can leave behind
 constexpr double kLate = 3;       // weight
 constexpr double kUnasked = 9;    // weight: it endangers whatever the hands do
 constexpr double kNeverIn = 8;    // weight: nothing else was tried
 constexpr double kNotFound = 6;   // weight: without a view there is no needle
-constexpr double kGiven = 0.1;    // ml from which something was injected
 constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
 constexpr double kHalfLife = 20;  // weeks
 constexpr double kWeak = 0.5;     // share of clean attempts below which a skill is trained
 constexpr int kIdleLevel = 5;
 
-double value_of(std::span<const Metric> metrics, const char* name) {
-  const Metric* metric = find_metric(metrics, name);
-  return metric != nullptr ? metric->value.value_or(0) : 0;
-}
 double value_of(const AttemptMeasures& m, const char* name) {
   return value_of(m.metrics, name);
-}
-
-/// ml beside the target; 0 where the target is no structure.
-double misplaced_ml(std::span<const Metric> metrics) {
-  const Metric* hit = find_metric(metrics, "in_target");
-  return hit != nullptr && hit->value ? value_of(metrics, "given_ml") * (1 - *hit->value) : 0;
-}
-
-/// mm advanced without seeing a tip that the picture could have shown: who enters beside it as
-/// asked cannot see the tip before its edge.
-double unseen_mm(std::span<const Metric> metrics) {
-  return std::max(0.0, value_of(metrics, kUnseen.metric) - value_of(metrics, "unseen_entry_mm"));
 }
 
 /// The run with most of it, the way to the picture's edge in the first one aside.
@@ -75,10 +59,6 @@ const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
     entry = 0;
   }
   return worst;
-}
-
-bool unaspirated(std::span<const Metric> metrics) {
-  return value_of(metrics, "given_ml") > kGiven && value_of(metrics, kUnaspirated.metric) == 0;
 }
 
 double weight_of(const Kind& kind, double value) {
@@ -114,6 +94,12 @@ bool missed(const Judgement& judgement, const char* metric) {
   return mark != nullptr && !mark->held;
 }
 
+/// A kind with the band that the task's own mark sets, where it has one.
+Kind with_mark(Kind kind, const Judgement& judgement) {
+  if (const JudgedMark* mark = mark_of(judgement, kind.metric)) kind.band = mark->mark.bound;
+  return kind;
+}
+
 /// What the end of the attempt was, where the task asks for another.
 void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::vector<Fault>& out) {
   if (const AttemptEvent* e = worst_event(m, "left_in");
@@ -146,7 +132,8 @@ void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::v
          "the path was not chosen before the skin", "Choose the path before you enter the skin."});
 }
 
-void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+void add_needle_faults(const AttemptMeasures& m, const Judgement& judgement,
+                       std::vector<Fault>& out) {
   if (const AttemptEvent* e = worst_event(m, "fatal:"))
     out.push_back({e->kind, e->time, weight_of(kAvoid, 3 * kAvoid.band),
                    beside("entered a structure that must never be entered", e->value, "mm", 0),
@@ -168,14 +155,18 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
       bone = nullptr;  // one cause, one fault
     }
   }
-  if (bone != nullptr)
-    out.push_back({"bone", bone->time, weight_of(kBone, value_of(m, kBone.metric)),
-                   beside("bone contacts", value_of(m, kBone.metric), "", kBone.band), bone->text,
+  const double contacts = value_of(m, kBone.metric);
+  const JudgedMark* allowed = mark_of(judgement, kBone.metric);
+  const double most = allowed != nullptr ? allowed->mark.bound : 0;
+  if (bone != nullptr && contacts > most)
+    out.push_back({"bone", bone->time, weight_of(kBone, contacts),
+                   beside("bone contacts", contacts, "", most + 1), bone->text,
                    "Slow down to less than 5 mm/s in the last centimetre."});
   const double off = value_of(m, kOffTarget.metric);
-  if (const AttemptEvent* e = worst_event(m, "placed"); e != nullptr && off > kOffTarget.band)
-    out.push_back({"off_target", e->time, weight_of(kOffTarget, off),
-                   beside("distance from the target", off, "mm", kOffTarget.band), e->text,
+  const Kind place = with_mark(kOffTarget, judgement);
+  if (const AttemptEvent* e = worst_event(m, "placed"); e != nullptr && off > place.band)
+    out.push_back({"off_target", e->time, weight_of(place, off),
+                   beside("distance from the target", off, "mm", place.band), e->text,
                    "Before you stop, look where the tip is, not where it should be."});
 }
 
@@ -189,19 +180,6 @@ void add_look_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                  e->text,
                  "Sweep the whole area slowly. Stop when you see it, bring it to the middle and "
                  "hold still."});
-}
-
-/// What harms goes before what misses the purpose, and that before style.
-constexpr int kHarm = 2;
-constexpr int kDeadly = 3;
-int rank_of(const std::string& kind) {
-  if (kind.rfind("fatal:", 0) == 0) return kDeadly;
-  constexpr std::array<const char*, 6> kHarms{"left_in",     "unasked",  "misplaced",
-                                              "unaspirated", "pressure", "bone"};
-  if (kind.rfind("avoid:", 0) == 0 || std::find(kHarms.begin(), kHarms.end(), kind) != kHarms.end())
-    return kHarm;
-  return kind == "off_target" || kind == "never_in" || kind == "unseen" || kind == "not_found" ? 1
-                                                                                               : 0;
 }
 
 /// Whether the needle came where it should.
@@ -225,7 +203,8 @@ Run fastest_drift(const AttemptMeasures& m) {
   return worst;
 }
 
-void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+void add_syringe_faults(const AttemptMeasures& m, const Judgement& judgement,
+                        std::vector<Fault>& out) {
   const double astray = misplaced_ml(m.metrics);
   if (const AttemptEvent* e = worst_event(m, "misplaced"); e != nullptr) {
     // Liquid goes where the tip is: one cause, one fault.
@@ -234,21 +213,23 @@ void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    beside("injected outside the target", astray, "ml", kMisplaced.band), e->text,
                    "Inject half a ml and look: the line must open."});
   }
-  if (const AttemptEvent* e = worst_event(m, "flow"); e != nullptr && unaspirated(m.metrics))
+  if (const AttemptEvent* e = worst_event(m, "flow"); e != nullptr && is_unaspirated(m.metrics))
     out.push_back({"unaspirated", e->time, weight_of(kUnaspirated, 1),
                    printed("%.1f ml injected without aspirating first", e->value),
                    "the plunger was not drawn back for 2 s; the tip was in " + e->region,
                    "Aspirate for 3 s before you inject."});
   const double pressure = value_of(m, kPressure.metric);
-  if (const AttemptEvent* e = worst_event(m, "pressure"); e != nullptr && pressure > kPressure.band)
-    out.push_back({"pressure", e->time, weight_of(kPressure, pressure),
-                   beside("pressure in the syringe", pressure, "kPa", kPressure.band),
+  const Kind press = with_mark(kPressure, judgement);
+  if (const AttemptEvent* e = worst_event(m, "pressure"); e != nullptr && pressure > press.band)
+    out.push_back({"pressure", e->time, weight_of(press, pressure),
+                   beside("pressure in the syringe", pressure, "kPa", press.band),
                    "the tip was in " + e->region,
                    "Do not force it: withdraw the needle by a millimetre until it flows."});
   const double flow = value_of(m, kFast.metric);
-  if (const AttemptEvent* e = worst_event(m, "fastest"); e != nullptr && flow > kFast.band)
+  const Kind fast = with_mark(kFast, judgement);
+  if (const AttemptEvent* e = worst_event(m, "fastest"); e != nullptr && flow > fast.band)
     out.push_back(
-        {"fast", e->time, weight_of(kFast, flow), beside("fastest flow", flow, "ml/s", kFast.band),
+        {"fast", e->time, weight_of(fast, flow), beside("fastest flow", flow, "ml/s", fast.band),
          "the thumb pushed with " + printed("%.0f N", value_of(m, "plunger_peak_n")) + " at most",
          "Inject more slowly than 0.3 ml/s, so that you feel the tissue."});
 }
@@ -263,7 +244,8 @@ void add_idle(const AttemptMeasures& m, std::vector<Fault>& out) {
                  "Look and decide before you enter the skin, then go."});
 }
 
-void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+void add_hand_faults(const AttemptMeasures& m, const Judgement& judgement,
+                     std::vector<Fault>& out) {
   const double start = m.course.empty() ? 0 : m.course.front().time;
   const AttemptEvent* contact = worst_event(m, "contact");
   const double entry = contact != nullptr ? contact->time : start;
@@ -275,11 +257,12 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                            worst.amount / kMillimetre),
                    "Rest the probe hand on the patient."});
   const double passes = value_of(m, kPasses.metric);
+  const Kind again = with_mark(kPasses, judgement);
   const auto e = std::find_if(m.events.begin(), m.events.end(),
                               [](const AttemptEvent& event) { return event.kind == "pass"; });
-  if (e != m.events.end() && passes > kPasses.band)
+  if (e != m.events.end() && passes > again.band)
     out.push_back(
-        {"passes", e->time, weight_of(kPasses, passes), beside("passes", passes, "", kPasses.band),
+        {"passes", e->time, weight_of(again, passes), beside("passes", passes, "", again.band),
          "the path was not chosen before the skin", "Choose the path before you enter the skin."});
   const double angle = value_of(m, kAngle.metric);
   if (angle > kAngle.band)
@@ -298,8 +281,9 @@ std::string praise(const AttemptMeasures& m, const Judgement& judgement,
     return std::any_of(faults.begin(), faults.end(),
                        [&](const Fault& fault) { return fault.kind == kind; });
   };
-  if (std::any_of(faults.begin(), faults.end(),
-                  [](const Fault& fault) { return rank_of(fault.kind) >= kHarm; }))
+  if (std::any_of(faults.begin(), faults.end(), [](const Fault& fault) {
+        return severity_of_fault(fault.kind) >= FaultSeverity::harm;
+      }))
     return "";
   const bool blind = faulty("unseen") || missed(judgement, "unseen_advances") ||
                      missed(judgement, "unseen_mm") || missed(judgement, "tip_seen");
@@ -376,6 +360,17 @@ SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weak
 
 }  // namespace
 
+FaultSeverity severity_of_fault(const std::string& kind) noexcept {
+  if (kind.rfind("fatal:", 0) == 0) return FaultSeverity::fatal;
+  constexpr std::array<const char*, 6> kHarms{"left_in",     "unasked",  "misplaced",
+                                              "unaspirated", "pressure", "bone"};
+  if (kind.rfind("avoid:", 0) == 0 || std::find(kHarms.begin(), kHarms.end(), kind) != kHarms.end())
+    return FaultSeverity::harm;
+  const bool purpose =
+      kind == "off_target" || kind == "never_in" || kind == "unseen" || kind == "not_found";
+  return purpose ? FaultSeverity::purpose : FaultSeverity::style;
+}
+
 Skill skill_of_fault(const std::string& kind) noexcept {
   if (kind == "not_found") return Skill::look;
   if (kind == "unseen" || kind == "angle") return Skill::view;
@@ -388,7 +383,7 @@ Skill skill_of_fault(const std::string& kind) noexcept {
 PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
   PastAttempt out;
   out.weeks = weeks;
-  out.injected = value_of(metrics, "given_ml") > kGiven;
+  out.injected = value_of(metrics, "given_ml") > kGivenMl;
   out.looked = find_metric(metrics, "found") != nullptr;
   if (const Metric* time = find_metric(metrics, "find_s"); time != nullptr && !time->value)
     out.kinds.emplace_back("not_found");
@@ -400,7 +395,7 @@ PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
   if (unseen_mm(metrics) > kUnseen.band) out.kinds.emplace_back("unseen");
   if (value_of(metrics, kBone.metric) >= kBone.band) out.kinds.emplace_back("bone");
   if (misplaced_ml(metrics) > kMisplaced.band) out.kinds.emplace_back("misplaced");
-  if (unaspirated(metrics)) out.kinds.emplace_back("unaspirated");
+  if (is_unaspirated(metrics)) out.kinds.emplace_back("unaspirated");
   for (const Metric& m : metrics)
     if (m.name.rfind("avoid_depth_mm:", 0) == 0 && m.value.value_or(0) > 0)
       out.kinds.push_back("avoid:" + m.name.substr(m.name.find(':') + 1));
@@ -421,12 +416,12 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   }
   add_end_faults(measures, judgement, out.faults);
   add_look_faults(measures, out.faults);
-  add_needle_faults(measures, out.faults);
-  add_hand_faults(measures, out.faults);
-  add_syringe_faults(measures, out.faults);
+  add_needle_faults(measures, judgement, out.faults);
+  add_hand_faults(measures, judgement, out.faults);
+  add_syringe_faults(measures, judgement, out.faults);
   if (context.level >= kIdleLevel) add_idle(measures, out.faults);
   PastAttempt now;
-  now.injected = value_of(measures, "given_ml") > kGiven;
+  now.injected = value_of(measures, "given_ml") > kGivenMl;
   now.looked = !measures.sought.empty();
   for (Fault& fault : out.faults) {
     if (fault.kind != "unasked") now.kinds.push_back(fault.kind);  // no skill of the hands
@@ -437,7 +432,8 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
     if (std::find(last.begin(), last.end(), kind) != last.end()) fault.weight *= kAgain;
   }
   std::stable_sort(out.faults.begin(), out.faults.end(), [](const Fault& a, const Fault& b) {
-    return std::pair(rank_of(a.kind), a.weight) > std::pair(rank_of(b.kind), b.weight);
+    return std::pair(severity_of_fault(a.kind), a.weight) >
+           std::pair(severity_of_fault(b.kind), b.weight);
   });
   const SkillTask next = next_task(judgement, weakest_skill(now, context));
   out.next = next.what;

@@ -22,6 +22,10 @@ struct Fault {
   std::string mend;   ///< what to do
 };
 
+/// What harms is told before what misses the purpose, and that before style.
+enum class FaultSeverity { style, purpose, harm, fatal };
+[[nodiscard]] FaultSeverity severity_of_fault(const std::string& kind) noexcept;
+
 /// What a learner is told after an attempt.
 struct Feedback {
   std::string verdict;        ///< passed or not, and the mark that was missed

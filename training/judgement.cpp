@@ -5,7 +5,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {
@@ -73,6 +76,14 @@ int whole_points(double score) noexcept {
   return static_cast<int>(std::floor(score + kRounding));
 }
 
+std::vector<Mark> safety_marks() {
+  static_assert(kMostPressureKpa == 100, "as it is written below");
+  return {{"avoid_fatal", Relation::equal, 0, "== 0"},
+          {"avoid_entries", Relation::equal, 0, "== 0"},
+          {"withdrawn", Relation::equal, 1, "== 1"},
+          {"pressure_peak_kpa", Relation::at_most, kMostPressureKpa, "<= 100"}};
+}
+
 MarkKind kind_of_mark(std::string_view metric) noexcept {
   constexpr std::array<std::string_view, 7> kDangers{
       "asked",           "withdrawn", "bone_contacts", "bone_peak_n", "pressure_peak_kpa",
@@ -94,40 +105,74 @@ bool needs_force(std::string_view metric) noexcept {
          std::find(kForces.begin(), kForces.end(), metric) != kForces.end();
 }
 
+namespace {
+
+/// Whether something of harm or of the purpose went wrong that fails nobody: bone was met, liquid
+/// went astray or was given without aspirating, the needle advanced unseen or ended off the target,
+/// where no mark allows it.
+bool is_flawed(std::span<const Metric> metrics, std::span<const Mark> marks) {
+  const auto beyond = [&](const char* metric, double bound) {
+    const bool own = std::any_of(marks.begin(), marks.end(),
+                                 [&](const Mark& mark) { return mark.metric == metric; });
+    return !own && value_of(metrics, metric) > bound;
+  };
+  return beyond("bone_contacts", 0) || beyond("distance_mm", kMostOffTargetMm) ||
+         unseen_mm(metrics) > kMostUnseenMm || misplaced_ml(metrics) > kMostMisplacedMl ||
+         is_unaspirated(metrics);
+}
+
+/// A mark against the metrics. Empty: it needs a force that nobody felt.
+std::optional<JudgedMark> judge_mark(const Mark& mark, std::span<const Metric> metrics,
+                                     std::span<const ScoreWeight> weights, bool felt) {
+  if (!felt && needs_force(mark.metric)) return std::nullopt;
+  JudgedMark judged;
+  judged.mark = mark;
+  const Metric* metric = find_metric(metrics, mark.metric);
+  if (metric != nullptr) judged.value = metric->value;
+  judged.held = judged.value && holds(mark, *judged.value);
+  judged.part = judged.value ? part_of(mark, *judged.value) : 0;
+  judged.weight = kind_of_mark(mark.metric) == MarkKind::style ? 1 : kGrave;
+  for (const ScoreWeight& w : weights)
+    if (w.metric == mark.metric) judged.weight = w.weight;
+  return judged;
+}
+
+}  // namespace
+
 Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                 std::span<const ScoreWeight> weights, bool with_aids, bool felt) {
   Judgement out;
   out.with_aids = with_aids;
-  out.passed = !with_aids;
+  for (const Mark& mark : marks) {
+    auto judged = judge_mark(mark, metrics, weights, felt);
+    if (judged)
+      out.marks.push_back(std::move(*judged));
+    else
+      out.unjudged.push_back(mark);
+  }
+  const bool any = !out.marks.empty();
+  for (const Mark& mark : safety_marks()) {
+    const bool own = mark.metric != "avoid_fatal" &&
+                     std::any_of(marks.begin(), marks.end(),
+                                 [&](const Mark& other) { return other.metric == mark.metric; });
+    auto judged = own ? std::nullopt : judge_mark(mark, metrics, {}, felt);
+    const bool listed = std::any_of(out.marks.begin(), out.marks.end(), [&](const auto& other) {
+      return other.mark.metric == mark.metric && !other.held;
+    });
+    if (judged && judged->value && !judged->held && !listed)
+      out.marks.push_back(std::move(*judged));
+  }
+  double most = is_flawed(metrics, marks) ? kFlawedScore : 100;
   double sum = 0;
   double total = 0;
-  double most = 100;
-  for (const Mark& mark : marks) {
-    if (!felt && needs_force(mark.metric)) {
-      out.unjudged.push_back(mark);
-      continue;
-    }
-    JudgedMark judged;
-    judged.mark = mark;
-    const Metric* metric = find_metric(metrics, mark.metric);
-    if (metric != nullptr) judged.value = metric->value;
-    judged.held = judged.value && holds(mark, *judged.value);
-    judged.part = judged.value ? part_of(mark, *judged.value) : 0;
-    judged.weight = kind_of_mark(mark.metric) == MarkKind::style ? 1 : kGrave;
-    for (const ScoreWeight& w : weights)
-      if (w.metric == mark.metric) judged.weight = w.weight;
-    out.passed = out.passed && judged.held;
-    if (!judged.held) most = std::min(most, most_of(kind_of_mark(mark.metric)));
-    sum += judged.weight * judged.part;
-    total += judged.weight;
-    out.marks.push_back(std::move(judged));
+  bool held = any;
+  for (const JudgedMark& mark : out.marks) {
+    held = held && mark.held;
+    if (!mark.held) most = std::min(most, most_of(kind_of_mark(mark.mark.metric)));
+    sum += mark.weight * mark.part;
+    total += mark.weight;
   }
-  out.passed = out.passed && !out.marks.empty();
-  const Metric* fatal = find_metric(metrics, "avoid_fatal");
-  if (fatal != nullptr && fatal->value.value_or(0) > 0) {
-    out.passed = false;
-    most = kFatalScore;
-  }
+  out.passed = held && !with_aids;
   out.score = total > 0 ? most * sum / total : 0;
   return out;
 }

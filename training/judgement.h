@@ -37,14 +37,15 @@ struct JudgedMark {
 struct Judgement {
   bool passed = false;
   bool with_aids = false;
-  /// 0 to 100: the parts' weighted mean; of kFailedScore when a mark did not hold, kDangerScore
-  /// when it was one of danger, kFatalScore when what must never be entered was: no failure scores
-  /// more than a pass.
+  /// 0 to 100: the parts' weighted mean; of kFlawedScore when something went wrong that fails
+  /// nobody, of kFailedScore when a mark did not hold, kDangerScore when it was one of danger,
+  /// kFatalScore when what must never be entered was: no failure scores more than a pass.
   double score = 0;
   std::vector<JudgedMark> marks;
   std::vector<Mark> unjudged;  ///< marks that need a force that nobody felt
 };
 
+inline constexpr double kFlawedScore = 90;  // assumed, as those below
 inline constexpr double kFailedScore = 60;
 inline constexpr double kDangerScore = 40;
 inline constexpr double kFatalScore = 20;
@@ -67,7 +68,12 @@ struct ScoreWeight {
   double weight = 1;
 };
 
-/// `metrics` against `marks`. An entry into what is fatal fails, marked or not. `felt`: the hands
+/// Marks of danger of every task: nothing that is to be spared is entered, the needle is out at the
+/// end, the syringe is not forced.
+[[nodiscard]] std::vector<Mark> safety_marks();
+
+/// `metrics` against `marks`, and against the marks of safety of every task that `marks` do not set
+/// otherwise; of these the missed ones stand among `marks`. `felt`: the hands
 /// gave force; else marks that need it are left out and kept as unjudged.
 [[nodiscard]] Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                               std::span<const ScoreWeight> weights, bool with_aids,

@@ -125,6 +125,15 @@ std::string statement_id(const std::string& attempt) {
          hex.substr(16, 4) + '-' + hex.substr(20);
 }
 
+/// An absolute IRI as a web address: what a record store takes as somebody's home page.
+bool is_address(const std::string& text) {
+  const std::size_t begin = text.rfind("https://", 0) == 0  ? 8
+                            : text.rfind("http://", 0) == 0 ? 7
+                                                            : 0;
+  return begin > 0 && text.size() > begin &&
+         text.find_first_of(" \t\n<>\"{}|\\^`") == std::string::npos;
+}
+
 /// By ISO 8601, to the hundredth of a second: "PT12.5S".
 std::string duration_of(double seconds) {
   std::string digits = printed("%.2f", std::max(0.0, seconds));
@@ -137,7 +146,11 @@ std::string duration_of(double seconds) {
 
 Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter,
                                    const std::string& home) {
-  const std::string iri = home + (home.empty() || home.back() != '/' ? "/" : "");
+  if (!is_address(home))
+    return fail(ErrorCode::malformed,
+                "'" + home + "' is no address: write https:// and who gave the pseudonyms",
+                "--home");
+  const std::string iri = home + (home.back() != '/' ? "/" : "");
   const auto attempts = records.attempts(filter);
   ARTUS_TRY(attempts);
   auto metrics = metrics_of(records, filter);

@@ -17,7 +17,7 @@ namespace artus {
 [[nodiscard]] Result<std::string> export_tsv(Records& records, const AttemptFilter& filter);
 /// One xAPI statement a finished attempt: the actor an account with the pseudonym alone, the verb
 /// passed or failed (attempted when aids were on), score 0 to 1, duration ISO 8601, metrics as
-/// extensions. `home`: IRI of who gave the pseudonyms.
+/// extensions. `home`: web address of who gave the pseudonyms. Errors: malformed, no address.
 [[nodiscard]] Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter,
                                                  const std::string& home);
 

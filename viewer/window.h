@@ -36,6 +36,7 @@ struct WindowStatus {
   std::vector<std::string> steps;  ///< of a lesson, those that are not done
   std::string remark;              ///< of who looks on, as it stands there
   NeedleReading needle;
+  SyringeReading syringe;
   Grab grab = Grab::nothing;
   GesturePhase phase = GesturePhase::exploring;
   ImagePlace image_place;

@@ -335,6 +335,7 @@ WindowStatus WindowLoop::status() const {
   now.next = input_.next;
   now.message = state_.message;
   now.needle = input_.needle;
+  now.syringe = input_.syringe;
   now.grab = control_.grab();
   now.phase = input_.now.phase;
   now.image_place = state_.image_place;

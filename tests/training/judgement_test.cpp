@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/judgement.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
+
+#include "artus/detail/training/metrics/limits.h"
 
 namespace artus {
 namespace {
@@ -91,6 +95,46 @@ TEST(Judgement, WhatIsFatalFailsMarkedOrNot) {
   const Judgement judged = judge(m, marks(), {}, false);
   EXPECT_FALSE(judged.passed);
   EXPECT_LE(judged.score, kFatalScore);
+}
+
+TEST(Judgement, WhatSafetyForbidsFailsMarkedOrNot) {
+  for (const auto& [metric, value] :
+       {std::pair{"pressure_peak_kpa", 101.0}, std::pair{"avoid_entries", 1.0},
+        std::pair{"withdrawn", 0.0}, std::pair{"avoid_fatal", 1.0}}) {
+    std::vector<Metric> m = measured(1, 1);
+    m.push_back({metric, "needle", "-", value, "", {}});
+    const Judgement judged = judge(m, marks(), {}, false);
+    EXPECT_FALSE(judged.passed) << metric;
+    EXPECT_LE(judged.score, kDangerScore) << metric;
+    ASSERT_EQ(judged.marks.size(), 3U) << metric;
+    EXPECT_EQ(judged.marks[2].mark.metric, metric) << "told among the marks";
+  }
+}
+
+TEST(Judgement, ATaskSetsItsOwnLimitOfPressure) {
+  std::vector<Mark> all = marks();
+  all.push_back(*parse_mark("pressure_peak_kpa", "<= 250"));
+  auto metrics = measured(1, 1);
+  metrics.push_back({"pressure_peak_kpa", "syringe", "kPa", 200.0, "", {}});
+  EXPECT_EQ(judge(metrics, all, {}, false).score, 100);
+  EXPECT_TRUE(judge(metrics, marks(), {}, false, false).passed) << "nobody felt it";
+}
+
+TEST(Judgement, AHundredStandsBesideNothingThatHarms) {
+  for (const auto& [metric, value] :
+       {std::pair{"bone_contacts", 1.0}, std::pair{"unseen_mm", 1.5}, std::pair{"given_ml", 1.0}}) {
+    std::vector<Metric> m = measured(1, 1);
+    m.push_back({metric, "needle", "-", value, "", {}});
+    const Judgement judged = judge(m, marks(), {}, false);
+    EXPECT_TRUE(judged.passed) << metric;
+    EXPECT_EQ(judged.score, kFlawedScore) << metric;
+  }
+  EXPECT_GT(kFlawedScore, kFailedScore);
+  auto allowed = marks();
+  allowed.push_back(*parse_mark("bone_contacts", "<= 1"));
+  auto m = measured(1, 1);
+  m.push_back({"bone_contacts", "needle", "count", 1.0, "", {}});
+  EXPECT_EQ(judge(m, allowed, {}, false).score, 100);
 }
 
 TEST(Judgement, WithoutMarksNothingPasses) {

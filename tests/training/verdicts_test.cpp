@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A hundred attempts whose verdict is known before they are made, by the rules of docs/training.md:
-// ten ways to do a task, each in ten forms (angle, speed, rests).
+// eleven ways to do a task, each in ten forms (angle, speed, rests).
 #include <functional>
 #include <string>
 
@@ -47,9 +47,9 @@ struct Form {
 };
 
 /// Aspirates and gives 1 ml.
-void give(ScriptedHands& hands, double ml_s = 0.2) {
+void give(ScriptedHands& hands, double ml_s = 0.2, double kpa = 40) {
   hands.inject(3, -0.01, -10);
-  hands.inject(1 / ml_s, ml_s, 40);
+  hands.inject(1 / ml_s, ml_s, kpa);
 }
 
 struct Kind {
@@ -142,6 +142,13 @@ std::vector<Kind> kinds() {
          h.go(2, -5);
        },
        false, "fast", 40, 59.99},
+      {"forces the syringe",
+       [](auto& h, const Form& f) {
+         bring(h, f);
+         give(h, 0.2, 110 + 20 * f.number);
+         h.go(2, -5);
+       },
+       false, "pressure", 20, 39.99},
       {"wrong side",
        [](auto& h, const Form& f) {
          h.along = along(f) + 10 + f.number;
@@ -195,6 +202,17 @@ TEST(Verdicts, AHundredAttemptsAreJudgedAsWrittenDown) {
       EXPECT_TRUE(faults.empty() || !faults.front().mend.empty());
     }
   EXPECT_EQ(wrong, 0);
+}
+
+TEST(Verdicts, AHundredStandsBesideNothingWrong) {
+  for (const Kind& kind : kinds())
+    for (int number = 0; number < 10; number += 3) {
+      const Told told = attempt(kind, number);
+      if (told.judgement.score < 100) continue;
+      EXPECT_TRUE(told.judgement.passed) << kind.name;
+      for (const Fault& fault : told.feedback.faults)
+        EXPECT_LT(severity_of_fault(fault.kind), FaultSeverity::purpose) << kind.name;
+    }
 }
 
 TEST(Verdicts, HarmIsNotPraised) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/core/units.h"
 #include "artus/detail/viewer/input/body_contact.h"
 #include "artus/detail/viewer/input/gamepad.h"
 #include "artus/detail/viewer/input/script.h"
@@ -175,6 +176,22 @@ TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
   control.handle(ScrollEvent{200, false}, ground_);
   EXPECT_NEAR(tip(control), 29e-3 + HandControl::kBeyondBone, 1e-6);
   EXPECT_STREQ(control.refusal(), "on bone");
+}
+
+TEST_F(OverLayers, AFlatNeedleIsNotTornOutOfTheSkin) {
+  constexpr double kFlat = 18;  // degrees to the skin
+  const Vec3 axis(std::cos(kFlat * kDegree), 0, std::sin(kFlat * kDegree));
+  for (const auto& [dx, dy] : {std::pair{900.0, 0.0}, {-900.0, 400.0}, {0.0, 1200.0}}) {
+    HandTarget start = start_target();
+    start.X_WN = to_plain(make_pose(30e-3 * axis, axis, Vec3::UnitY()));
+    HandControl control(start);
+    ground_.entry_W = Vec3::Zero();
+    control.handle(request(Action::take_needle), ground_);
+    for (int flick = 0; flick < 6; ++flick)
+      control.handle(MoveEvent{flick * dx, flick * dy}, ground_);
+    EXPECT_GE(tip(control), 2e-3 - 1e-6) << dx << ' ' << dy;
+    EXPECT_NEAR(to_pose(control.target().X_WN).translation().norm(), 30e-3, 1e-9);
+  }
 }
 
 TEST_F(OverLayers, AWithdrawalIsUndoneAsOne) {

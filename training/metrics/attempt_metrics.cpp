@@ -175,10 +175,10 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
             "its 90th percentile");
   sheet.put(
       "both", "tip_seen", "-", there ? Value(sum.time_seen / sum.time) : Value(),
-      "share of the time in tissue with the tip 4 dB above what is around it in the pictures of "
-      "that moment, where its echo is not 12 dB below muscle's; without pictures, with it between "
-      "the outermost lines, not shadowed, and its echo 6 dB above muscle after what angle and "
-      "distance to the plane take");
+      "share of the time in tissue with the last 5 mm of the shaft, and the last 2 mm alone, 4 "
+      "dB above lines beside it in the pictures of that moment, where its echo is not 12 dB "
+      "below muscle's; without pictures, with the tip between the outermost lines, not shadowed, "
+      "and its echo 6 dB above muscle after what angle and distance to the plane take");
   double unseen = 0;
   for (const Run& run : sum.unseen) unseen += run.amount;
   sheet.put("both", "unseen_advances", "count",
@@ -397,8 +397,10 @@ void put_images(Sheet& sheet, const AttemptView& view) {
     if (sight.contrast_db) contrast.push_back(*sight.contrast_db);
   }
   sheet.put("both", "tip_visible", "-", inside > 0 ? Value(visible / inside) : Value(),
-            "share of the pictures in tissue in which the disc of 1.5 mm where the tip shows is "
-            "4 dB above what is typical of the ring of 2 to 4 mm around it beside the shaft");
+            "share of the pictures in tissue in which the last 5 mm of the shaft, and the last 2 "
+            "mm alone, are 4 dB above lines that run beside it; a shaft across the plane: the "
+            "disc of 1.5 mm where the tip shows above what is typical of the ring of 2 to 4 mm "
+            "around it");
   sheet.put("both", "tip_contrast_median_db", "dB", percentile(contrast, 0.5),
             "that contrast's median");
 }

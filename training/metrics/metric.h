@@ -10,7 +10,7 @@
 namespace artus {
 
 /// Grows whenever the definition of any metric changes; stands beside every stored value.
-inline constexpr int kMetricsVersion = 3;
+inline constexpr int kMetricsVersion = 4;
 
 /// How the poses were prepared from which a number comes.
 struct MetricRule {

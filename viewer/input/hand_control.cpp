@@ -103,15 +103,38 @@ void HandControl::keep_turn(Pose& X_WN, const Vec3& entry_W) const {
     X_WN = turned_about(X_WN, entry_W, back.normalized(), angle - kMostTurn);
 }
 
+namespace {
+
+/// Whether the tip lies as deep under the skin as tissue holds it, or as it did before.
+bool stays_in(const Pose& X_WN, const Pose& before, const BodyContact& body) {
+  constexpr double kHeld = 2e-3;    // m; assumed: a tip nearer to the skin comes out of it
+  constexpr double kUnder = 20e-3;  // m
+  if (body.scene == nullptr) return true;
+  const auto deep = [&](const Pose& X) {
+    return -body.scene->signed_distance_to_skin(body.X_WJ.inverse() * X.translation(), kUnder);
+  };
+  return deep(X_WN) >= std::min(kHeld, deep(before)) - 1e-6;
+}
+
+}  // namespace
+
 // In the image plane with x, out of it with y: a turn about the entry, or a shift while outside.
 void HandControl::steer_needle(double x, double y, double slide, double turn,
                                const HandGround& ground) {
   const Pose X_WP = to_pose(target_.X_WP);
   Pose X_WN = to_pose(target_.X_WN);
   if (ground.entry_W) {
-    X_WN = turned_about(X_WN, *ground.entry_W, X_WP.linear().col(1), -turn * x);
-    X_WN = turned_about(X_WN, *ground.entry_W, X_WP.linear().col(0), turn * y);
-    keep_turn(X_WN, *ground.entry_W);
+    const Pose before = X_WN;
+    const auto turned = [&](double share) {
+      Pose X = turned_about(before, *ground.entry_W, X_WP.linear().col(1), -share * turn * x);
+      X = turned_about(X, *ground.entry_W, X_WP.linear().col(0), share * turn * y);
+      keep_turn(X, *ground.entry_W);
+      return X;
+    };
+    double share = 1;
+    X_WN = turned(share);
+    for (int i = 0; i < kLooks && !stays_in(X_WN, before, ground.body); ++i)
+      X_WN = turned(i + 1 < kLooks ? share *= 0.7 : 0);
   } else {
     X_WN.translation() += X_WP.linear() * Vec3(slide * x, slide * y, 0);
   }
@@ -240,12 +263,15 @@ bool HandControl::handle(Action action, bool fine, const HandGround& ground) {
 }
 
 void HandControl::move_in_hand(double dx, double dy, bool tilt, const HandGround& ground) {
-  if (grab_ == Grab::probe && tilt)
+  if (grab_ == Grab::probe && tilt) {
     tilt_probe(kTurn * dx, kTurn * dy);
-  else if (grab_ == Grab::probe)
+  } else if (grab_ == Grab::probe) {
     slide_probe(kSlide * dx, kSlide * dy, ground);
-  else if (grab_ == Grab::needle)
-    steer_needle(dx, dy, kSlide, kTurn, ground);
+  } else if (grab_ == Grab::needle) {
+    const double asked = ground.entry_W ? kTurn * std::hypot(dx, dy) : 0;
+    const double share = asked > kMostAtOnce ? kMostAtOnce / asked : 1;
+    steer_needle(share * dx, share * dy, kSlide, kTurn, ground);
+  }
 }
 
 bool HandControl::handle_move(const MoveEvent& move, const HandGround& ground) {

@@ -44,8 +44,10 @@ class HandControl {
   static constexpr double kPadTurn = 0.35;                     ///< rad/s, stick held
   static constexpr double kBeyondBone = 5e-3;                  ///< m of the hand's way that press
   /// rad from how it went in that tissue lets a shaft be turned; assumed. A hand that is flicked
-  /// bends no needle across the body.
+  /// bends no needle across the body, nor out of it: the tip of a flat one stays under the skin.
   static constexpr double kMostTurn = 35 * 0.017453292519943295;
+  static constexpr double kMostAtOnce = 10 * 0.017453292519943295;  ///< rad of one event; assumed
+  static constexpr int kLooks = 16;               ///< for the turn that keeps the tip in the body
   static constexpr double kDeepestPress = 15e-3;  ///< m, of the probe
 
   explicit HandControl(const HandTarget& start, double needle_length = 1)

@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include "artus/detail/viewer/joint3d/free_view.h"
 #include "artus/detail/viewer/joint3d/joint_shaders.h"
 #include "artus/detail/viewer/joint3d/joint_view.h"
 
@@ -46,6 +47,7 @@ Result<void> JointView::show_outside(std::shared_ptr<const OutsideBody> outside)
   skin_.set_normals(smooth_normals(outside_->skin));
   skin_.set_triangles(indices);
   camera_.distance = kUsualDistance;
+  if (outside_->hole) camera_ = find_free_view(*outside_, camera_);
   return {};
 }
 

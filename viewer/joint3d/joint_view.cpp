@@ -26,6 +26,13 @@ Eigen::Vector4f no_plane() {
 
 }  // namespace
 
+Vec3 eye_of(const OrbitCamera& c) {
+  const Vec3 forward = c.up.cross(c.side).normalized();
+  return c.centre +
+         c.distance * (std::cos(c.pitch) * (std::sin(c.yaw) * c.side - std::cos(c.yaw) * forward) +
+                       std::sin(c.pitch) * c.up);
+}
+
 Eigen::Matrix4f look_at(const Vec3& eye, const Vec3& centre, const Vec3& up) {
   const Vec3 z = (eye - centre).normalized();
   const Vec3 x = up.cross(z).normalized();
@@ -359,10 +366,7 @@ void JointView::begin_picture(int width, int height, const JointScene& scene) {
   image_ = scene.image == nullptr ? 0 : scene.image->input.number;
   take_body(scene.body);
   const OrbitCamera& c = camera_;
-  const Vec3 forward = c.up.cross(c.side).normalized();
-  eye_ = c.centre +
-         c.distance * (std::cos(c.pitch) * (std::sin(c.yaw) * c.side - std::cos(c.yaw) * forward) +
-                       std::sin(c.pitch) * c.up);
+  eye_ = eye_of(c);
   making_view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, kFarthest) *
                  look_at(eye_, c.centre, c.up);
   const int share = DetailChooser::kPixels[detail_.level()];

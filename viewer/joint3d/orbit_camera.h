@@ -17,6 +17,9 @@ struct OrbitCamera {
   Vec3 side = Vec3::UnitX();
 };
 
+/// Where its eye is, frame J.
+[[nodiscard]] Vec3 eye_of(const OrbitCamera& camera);
+
 /// Of an eye that looks at `centre`, and of a picture whose height is seen under `height_angle`.
 [[nodiscard]] Eigen::Matrix4f look_at(const Vec3& eye, const Vec3& centre, const Vec3& up);
 [[nodiscard]] Eigen::Matrix4f perspective(double height_angle, double aspect, double near,
