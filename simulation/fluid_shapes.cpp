@@ -15,10 +15,10 @@
 namespace artus {
 namespace {
 
-constexpr double kShapeTime = 0.06;      // s that the first shape may take: a flow is seen at once
-constexpr double kGrowthTime = 0.3;      // s that a later one may: images need not wait for it
-constexpr double kVisible = 1e-9;        // m^3, of a shape's first liquid and least growth
-constexpr double kLeastKept = 0.8;       // of a volume, by a press; less is not made up for
+constexpr double kShapeTime = 0.06;  // s that the first shape may take: a flow is seen at once
+constexpr double kGrowthTime = 0.3;  // s that a later one may: images need not wait for it
+constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least growth
+constexpr double kLeastKept = 0.8;   // of a volume, by a press; less is not made up for
 constexpr double kNearlyMost = 0.999;
 constexpr double kMissed = 5e-3;         // of a volume, by which a shape may be wrong
 constexpr double kStill = 1e-12;         // m^3 from image to image, of liquid that rests
