@@ -21,6 +21,7 @@ constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least
 constexpr double kLeastKept = 0.8;   // of a volume, by a press; less is not made up for
 constexpr double kNearlyMost = 0.999;
 constexpr double kMissed = 5e-3;         // of a volume, by which a shape may be wrong
+constexpr int kMostInARow = 4;           // shapes for that; what is missed then stays so
 constexpr double kStill = 1e-12;         // m^3 from image to image, of liquid that rests
 constexpr double kGrowth = 0.03;         // of what is there: 0.1 mm of a bursa that is 10 mm open
 constexpr double kPressForce = 0.05;     // N by which a press is another
@@ -185,9 +186,11 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
 void FluidShapes::follow(std::span<const InjectedSite> sites,
                          const std::shared_ptr<const DeformedBody>& tissue) {
   const Press press = press_of(tissue.get());
-  const bool wanted = is_at_rest(sites) || has_changed(sites, press) || misses_volume();
+  const bool changed = is_at_rest(sites) || has_changed(sites, press);
+  const bool wanted = changed || (made_up_ < kMostInARow && misses_volume());
   seen_.assign(sites.begin(), sites.end());
   if (sites.empty() || next_.valid() || !wanted) return;
+  made_up_ = changed ? 0 : made_up_ + 1;
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;

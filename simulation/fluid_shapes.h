@@ -92,6 +92,7 @@ class FluidShapes {
   std::vector<InjectedSite> begun_;  // of the newest shape, made or being made
   Press begun_under_;                // the same
   std::vector<InjectedSite> seen_;   // of the image before
+  int made_up_ = 0;                  // shapes in a row for what a press takes alone
   std::future<FluidShape> next_;
   FluidState state_;
 };

@@ -33,4 +33,9 @@ struct TetMesh {
 /// Signed volume of tetrahedron `i`, m^3; positive when well oriented.
 [[nodiscard]] double tet_volume(const TetMesh& mesh, std::size_t i) noexcept;
 
+/// The same over the cube of its longest edge: 0.118 of a regular one.
+[[nodiscard]] double tet_compactness(const TetMesh& mesh, std::size_t i) noexcept;
+/// Below this it is a sliver, which next to no motion turns over. assumed
+inline constexpr double kSliver = 5e-3;
+
 }  // namespace artus

@@ -18,8 +18,7 @@ using Mat3 = Eigen::Matrix3d;
 using Triangles = std::vector<Unfolding::Triangle>;
 
 constexpr double kLeast = 0.05;     // of its volume at rest, what a tetrahedron keeps
-constexpr double kSliver = 5e-3;    // of its longest edge's cube, what a sliver's volume is below
-constexpr double kFlattest = 1e-5;  // the same, of what has no shape to keep
+constexpr double kFlattest = 1e-5;  // compactness of what has no shape to keep
 constexpr double kStiffness = 30;   // of volume against shape; assumed
 constexpr int kRings = 2;           // of tetrahedra around what is wrong that may move
 constexpr int kWidenings = 2;       // by as many rings each
@@ -36,14 +35,6 @@ constexpr double kHardest = 1e-9;  // softness at last
 constexpr double kSame = 1e-3;     // of the liquid's volume, until a last push
 constexpr double kStrongest = 5;   // of a first guess at the pressure
 constexpr int kPushes = 6;
-
-double longest_edge(const TetMesh& mesh, const std::array<std::uint32_t, 4>& tet) {
-  double longest = 0;
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      longest = std::max(longest, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).norm());
-  return longest;
-}
 
 Mat3 edges_of(const std::vector<Vec3>& p, const std::array<std::uint32_t, 4>& tet) {
   Mat3 edges;
@@ -313,12 +304,11 @@ class Neighbourhood {
     for (std::size_t t = 0; t < fitness_.size(); ++t) {
       if (rest.regions[t] < loose.size() && loose[rest.regions[t]]) continue;
       const auto& v = rest.tetrahedra[t];
-      const double volume = edges_of(rest.vertices, v).determinant();
-      const double cube = 6 * std::pow(longest_edge(rest, v), 3);
-      if (volume > kFlattest * cube) fitness_[t] = Fitness::sliver;
-      if (!(volume > kSliver * cube)) continue;
+      const double compactness = tet_compactness(rest, t);
+      if (compactness > kFlattest) fitness_[t] = Fitness::sliver;
+      if (!(compactness > kSliver)) continue;
       fitness_[t] = Fitness::whole;
-      if (edges_of(moved, v).determinant() > kLeast * volume) continue;
+      if (edges_of(moved, v).determinant() > kLeast * 6 * tet_volume(rest, t)) continue;
       wrong_ = true;
       for (const std::uint32_t i : v) near_[i] = true;
     }

@@ -189,17 +189,12 @@ double changed_most(const CompiledJoint& before, const CompiledJoint& after,
 /// Tetrahedra of tissue that are turned over, slivers aside.
 int count_turned(const CompiledJoint& before, const CompiledJoint& after,
                  std::span<const RegionId> space) {
-  constexpr double kSliver = 5e-3;  // of its longest edge's cube
   int turned = 0;
   for (std::size_t t = 0; t < before.mesh.tetrahedra.size(); ++t) {
     const RegionId region = before.mesh.regions[t];
     if (std::find(space.begin(), space.end(), region) != space.end()) continue;
     if (tet_volume(after.mesh, t) > 0) continue;
-    double longest = 0;
-    for (const std::uint32_t a : before.mesh.tetrahedra[t])
-      for (const std::uint32_t b : before.mesh.tetrahedra[t])
-        longest = std::max(longest, (before.mesh.vertices[a] - before.mesh.vertices[b]).norm());
-    if (tet_volume(before.mesh, t) > kSliver * longest * longest * longest) ++turned;
+    if (tet_compactness(before.mesh, t) > kSliver) ++turned;
   }
   return turned;
 }

@@ -9,19 +9,6 @@
 namespace artus {
 namespace {
 
-constexpr double kSliver = 5e-3;  // of its longest edge's cube, what a sliver's volume is below
-
-/// m^3; 0 for a sliver.
-double volume_of_whole(const TetMesh& mesh, std::size_t i) {
-  const auto& tet = mesh.tetrahedra[i];
-  double longest = 0;
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      longest = std::max(longest, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).norm());
-  const double volume = tet_volume(mesh, i);
-  return volume > kSliver * longest * longest * longest ? volume : 0;
-}
-
 template <class F>
 void for_each_ray(const RayGrid& grid, F visit) {
   const auto nx = static_cast<int>(grid.half_x / grid.spacing);
@@ -73,10 +60,9 @@ LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now,
   for (std::size_t i = 0; i < rest.tetrahedra.size(); ++i) {
     const RegionId region = rest.regions[i];
     if (region < liquid.size() && liquid[region]) continue;
-    const double volume = volume_of_whole(rest, i);
-    if (!(volume > 0)) continue;
+    if (!(tet_compactness(rest, i) > kSliver)) continue;
     ++least.compared;
-    const double ratio = tet_volume(now, i) / volume;
+    const double ratio = tet_volume(now, i) / tet_volume(rest, i);
     if (!(ratio > 0)) least.inverted.push_back(i);
     if (ratio >= least.ratio) continue;
     least.ratio = ratio;
