@@ -80,7 +80,7 @@ TEST(NeedleContrast, WhatIsDarkAtTheTipIsNotSeenHoweverBrightTheShaft) {
 
 TEST(NeedleContrast, ABrightLayerBesideTheLineAndAStrandAcrossDoNotHideIt) {
   const auto skin = contrast_of_line([](double x, double z) {
-    return x * std::sin(30 * kDegree) - z * std::cos(30 * kDegree) > 1e-3 ? 4.0 : 1.0;
+    return x * std::sin(30 * kDegree) - z * std::cos(30 * kDegree) > 1.6e-3 ? 4.0 : 1.0;
   });
   const auto strand =
       contrast_of_line([](double x, double) { return std::abs(x + 2e-3) < 0.1e-3 ? 30.0 : 1.0; });

@@ -2,6 +2,8 @@
 // From where a joint is seen at first, with the person around it.
 #include "artus/detail/viewer/joint3d/free_view.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/joint_file.h"
@@ -31,7 +33,8 @@ TEST_P(FreeView, NothingOfThePersonStandsBeforeTheJoint) {
     camera = find_free_view(**body, camera);
     const double now = covered_share(**body, camera);
     EXPECT_LE(now, asked);
-    EXPECT_LT(now, 0.08) << "before: " << asked;
+    EXPECT_LT(now, std::max(0.1, 0.7 * asked))
+        << "a person who lies has the hip between belly and hand";
     if (asked <= 0.05) {
       EXPECT_EQ(camera.yaw, -1.15) << "a free view stays as it is";
       EXPECT_EQ(camera.pitch, 0.5);
