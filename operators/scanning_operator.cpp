@@ -21,8 +21,11 @@ constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
-constexpr int kMaxNudges = 4;          // assumed
-constexpr double kLearning = 0.069;    // a trial
+constexpr double kNoticed =
+    0.3e-3;  // m off where it came to rest, which the picture shows; assumed
+constexpr double kKeepSpeed = 2e-3;  // m/s at most meanwhile; assumed
+constexpr int kMaxNudges = 4;        // assumed
+constexpr double kLearning = 0.069;  // a trial
 
 }  // namespace
 
@@ -107,6 +110,7 @@ void ScanningOperator::begin(Phase phase, double time) noexcept {
   phase_time_ = time;
   phase_ = phase;
   speed_ = 0;
+  rested_.reset();
   if (phase == Phase::advance) speed_ = skill_.speed;
   if (phase == Phase::withdraw) speed_ = -kOut;
   follow(time, 0);
@@ -157,18 +161,24 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
     begin(Phase::search, time);
 }
 
-/// The needle rests until all is given; when the line does not split, it is moved a little toward
-/// where it should be.
-void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& glance) {
+/// The needle rests until all is given, where it came to be in the tissue: that comes onto a needle
+/// at rest, as the picture shows. When the line does not split, it is moved a little toward where
+/// it should be.
+void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& glance, bool seen) {
+  const double to_target = (plan_.target + glance.moved - X_JN.translation()).dot(direction_);
+  if (!rested_) rested_ = to_target;
+  const double off = to_target - *rested_;
+  if (seen && std::abs(off) > kNoticed)
+    phase_distance_ += std::clamp(off, -kKeepSpeed * kGlance, kKeepSpeed * kGlance);
   if (time - phase_time_ < kHold) return;
   if (glance.given) {
     begin(Phase::withdraw, time);
   } else if (glance.astray && nudges_ < kMaxNudges) {
     ++nudges_;
     if (draw() >= skill_.look) return;
-    const double left = (plan_.target + glance.moved - X_JN.translation()).dot(direction_);
-    phase_distance_ += std::copysign(kNudge, left);
+    phase_distance_ += std::copysign(kNudge, to_target);
     phase_time_ = time;
+    rested_.reset();
   }
 }
 
@@ -206,7 +216,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
       search(time, glance, seen);
       break;
     case Phase::hold:
-      hold(time, X_JN, glance);
+      hold(time, X_JN, glance, seen);
       break;
     case Phase::withdraw:
       if (depth_meant(time) <= -kApproach) begin(Phase::done, time);

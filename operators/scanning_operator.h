@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "artus/detail/operators/simulated_hand.h"
 
@@ -79,7 +80,7 @@ class ScanningOperator {
   void search(double time, const ScanGlance& glance, bool seen);
   void follow(double time, double offset);
   void correct(const Pose& X_JN);
-  void hold(double time, const Pose& X_JN, const ScanGlance& glance);
+  void hold(double time, const Pose& X_JN, const ScanGlance& glance, bool seen);
   [[nodiscard]] double draw() noexcept;
   [[nodiscard]] double gauss() noexcept;
   [[nodiscard]] double depth_meant(double t) const noexcept;
@@ -95,16 +96,17 @@ class ScanningOperator {
   Vec3 entry_ = Vec3::Zero();
   Vec3 direction_ = Vec3::UnitZ();
   Vec3 x_hint_ = Vec3::UnitX();
-  double judged_ = 0;       // m, this attempt's bias of judged distance
-  double seen_depth_ = 0;   // m, where the tip was last seen
-  double seen_time_ = -1;   // s, since when it is seen
-  int nudges_ = 0;          // that were made while injecting
-  double bold_until_ = 0;   // m, depth to which the hand goes on unseen
-  double plane_ = 0;        // m, of the probe beside its plan
-  double plane_turn_ = 0;   // rad
-  double drift_ = 0;        // m/s, signed
-  double plane_speed_ = 0;  // m/s
-  double plane_time_ = 0;   // s, when plane_ held
+  double judged_ = 0;             // m, this attempt's bias of judged distance
+  double seen_depth_ = 0;         // m, where the tip was last seen
+  double seen_time_ = -1;         // s, since when it is seen
+  std::optional<double> rested_;  // m along the line to the target, where the needle came to rest
+  int nudges_ = 0;                // that were made while injecting
+  double bold_until_ = 0;         // m, depth to which the hand goes on unseen
+  double plane_ = 0;              // m, of the probe beside its plan
+  double plane_turn_ = 0;         // rad
+  double drift_ = 0;              // m/s, signed
+  double plane_speed_ = 0;        // m/s
+  double plane_time_ = 0;         // s, when plane_ held
 };
 
 }  // namespace artus
