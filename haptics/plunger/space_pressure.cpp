@@ -12,11 +12,13 @@ constexpr double kBeyondYield = 1.0 / 3;  // of the slope; assumed
 constexpr double kSplitPower = -0.2;      // p of a penny-shaped crack at its length: V^(-1/5)
 constexpr double kLogRadii = 3.2188758;   // ln 25
 constexpr double kAllParted = 3e-6;       // m^3 from which on the whole film is parted; assumed
+constexpr double kFirstParted = 2.5e-4;   // m^2, by needle and tent alone; assumed
 
 /// m, of a film around the tip that is parted as far as a lens of the volume reaches.
 double mean_gap(const SpaceLaw& law, double volume) noexcept {
-  const double share = std::cbrt(std::clamp(volume / kAllParted, 0.0, 1.0));  // of its radius
-  return law.film_gap + (share > 0 ? volume / (share * share * law.film_area) : 0);
+  const double share = std::cbrt(std::clamp(volume / kAllParted, 0.0, 1.0));
+  const double area = std::max(share * share * law.film_area, kFirstParted);
+  return law.film_gap + std::max(volume, 0.0) / std::min(area, law.film_area);
 }
 
 double cavity_slope(const SpaceLaw& law, double v) noexcept {

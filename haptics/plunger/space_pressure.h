@@ -17,7 +17,7 @@ namespace artus {
 /// Pa s/m^3 between the tip and the rest of a film whose walls touch, for a liquid of `viscosity`
 /// Pa s: radial flow between plates, 6 mu ln(r_2/r_1)/(pi h^3), over a ratio of radii of 25. They
 /// part around the tip first: h is the mean over a radius that grows as volume^(1/3), as drawn
-/// liquid does, to the whole film's at 3 ml (assumed). 0 without a film.
+/// liquid does, from 2.5 cm2 on to all of it at 3 ml (assumed). 0 without a film.
 [[nodiscard]] ARTUS_REALTIME double film_resistance(const SpaceLaw& law, double volume,
                                                     double viscosity) noexcept;
 

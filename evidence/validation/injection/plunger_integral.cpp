@@ -83,9 +83,10 @@ class Integral {
   }
   [[nodiscard]] double film(double v) const {
     if (!(law_.film_area > 0)) return 0;
-    constexpr double kWhole = 3e-6;  // m^3, of a lens as wide as the film
-    const double area = law_.film_area * std::pow(std::min(1.0, v / kWhole), 2.0 / 3);
-    const double gap = law_.film_gap + (v > 0 ? v / area : 0);
+    constexpr double kWhole = 3e-6;    // m^3, of a lens as wide as the film
+    constexpr double kFirst = 2.5e-4;  // m^2, parted by the needle
+    const double grown = law_.film_area * std::pow(std::max(v, 0.0) / kWhole, 2.0 / 3);
+    const double gap = law_.film_gap + v / std::min(law_.film_area, std::max(grown, kFirst));
     return 6 * viscosity_ * std::log(25.0) / (std::numbers::pi * gap * gap * gap);
   }
   /// m^3/s at a pressure in the barrel: the root of entry q^2 + (bore + near) q = dp.

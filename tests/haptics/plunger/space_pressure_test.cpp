@@ -77,13 +77,15 @@ TEST(SpacePressure, OfAClosedFilmIsTheCubeLawOverThePatchThatIsParted) {
   const auto drop = [&](double volume) {
     return film_resistance(law, volume, 1e-3) * 1e-7 / kMercury;
   };
-  // Over 20 cm2 at 3 ml and a radius as the third root, V = (h 20 cm2)^3/(3 ml)^2 part by h.
+  // Over 2.5 of 20 cm2 at first, and with a radius as the third root from 0.13 ml on.
   const auto volume = [](double h) {
-    return std::pow(h * 20e-4, 3) / (3e-6 * 3e-6);
+    return h * 2.5e-4;
   };
   EXPECT_NEAR(drop(0), 37, 0.5);
   EXPECT_NEAR(drop(volume(0.05e-3)), 4.6, 0.1);
   EXPECT_NEAR(drop(volume(0.15e-3)), 0.58, 0.02);
+  EXPECT_NEAR(drop(0.375e-6), drop(0) * std::pow(0.05 / 0.8, 3), 1e-9)
+      << "a quarter of it, 0.75 mm";
   EXPECT_NEAR(drop(6e-6), drop(0) * std::pow(0.05 / 3.05, 3), 1e-9) << "all of it, 3 mm";
   EXPECT_EQ(film_resistance(law_of("muscle"), 0, 1e-3), 0);
 }
