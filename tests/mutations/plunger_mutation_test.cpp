@@ -135,7 +135,7 @@ InjectionSetup bag() {
   law.relaxing = 0.3;
   law.relaxation = 0.5;
   law.film_gap = 10e-6;
-  law.film_area = 3e-4;
+  law.film_area = 1.5e-4;
   law.stop = 10e3;
   law.contents = 0.3e-6;
   return setup;
