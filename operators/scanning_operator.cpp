@@ -21,11 +21,10 @@ constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
-constexpr double kNoticed =
-    0.3e-3;  // m off where it came to rest, which the picture shows; assumed
-constexpr double kKeepSpeed = 2e-3;  // m/s at most meanwhile; assumed
-constexpr int kMaxNudges = 4;        // assumed
-constexpr double kLearning = 0.069;  // a trial
+constexpr double kNoticed = 0.3e-3;    // m off where it came to rest, which is seen; assumed
+constexpr double kKeepSpeed = 2e-3;    // m/s at most meanwhile; assumed
+constexpr int kMaxNudges = 4;          // assumed
+constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
 
