@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "artus/detail/core/units.h"
 #include "artus/detail/session/hand_device.h"
 #include "artus/detail/simulation/two_phase_gesture.h"
 #include "artus/detail/viewer/input/body_contact.h"
@@ -46,7 +47,7 @@ class HandControl {
   /// rad from how it went in that tissue lets a shaft be turned; assumed. A hand that is flicked
   /// bends no needle across the body, nor out of it: the tip of a flat one stays under the skin.
   static constexpr double kMostTurn = 35 * 0.017453292519943295;
-  static constexpr double kMostAtOnce = 10 * 0.017453292519943295;  ///< rad of one event; assumed
+  static constexpr double kMostAtOnce = 10 * kDegree;  ///< rad of one event; assumed
   static constexpr int kLooks = 16;               ///< for the turn that keeps the tip in the body
   static constexpr double kDeepestPress = 15e-3;  ///< m, of the probe
 

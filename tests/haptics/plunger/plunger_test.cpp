@@ -20,6 +20,16 @@ double needle_resistance() {
   return NeedleFlow(params.needle, params.liquid.viscosity, 1000, 0).resistance();
 }
 
+/// Opens and peaks at these, Pa, the peak at `peak_volume` m^3.
+SpaceLaw tissue_that_parts(double opening, double peak, double peak_volume) {
+  SpaceLaw law;
+  law.kind = SpaceKind::split;
+  law.opening = opening;
+  law.peak = peak;
+  law.peak_volume = peak_volume;
+  return law;
+}
+
 TEST(Plunger, FillsAComplianceAtConstantPressureByAnExponential) {
   for (const double rate : {1e3, 2e3, 10e3}) {
     PlungerParams params = water_syringe(0);
@@ -220,11 +230,7 @@ TEST(Plunger, SeesBloodAfterTheHubAtTheTimesOfTheReference) {
 }
 
 TEST(Plunger, DrawsNothingFromTissueAndCannotPullMoreThanAVacuum) {
-  SpaceLaw law;
-  law.kind = SpaceKind::split;
-  law.opening = 8e3;
-  law.peak = 20e3;
-  law.peak_volume = 1e-7;
+  const SpaceLaw law = tissue_that_parts(8e3, 20e3, 1e-7);
   PlungerParams params = water_syringe();
   params.syringe.filled = 5e-6;
   Plunger plunger(params, one_space(law), 1e-3);
@@ -235,11 +241,7 @@ TEST(Plunger, DrawsNothingFromTissueAndCannotPullMoreThanAVacuum) {
 }
 
 TEST(Plunger, WashesSlurryOutOfADepositThatItHasOpenedALittleLessEachTime) {
-  SpaceLaw law;
-  law.kind = SpaceKind::split;
-  law.opening = 100e3;
-  law.peak = 200e3;
-  law.peak_volume = 2e-8;
+  SpaceLaw law = tissue_that_parts(100e3, 200e3, 2e-8);
   law.contents = 0.16e-6;
   PlungerParams params = water_syringe();
   params.syringe.filled = 5e-6;
@@ -269,11 +271,7 @@ TEST(Plunger, WashesSlurryOutOfADepositThatItHasOpenedALittleLessEachTime) {
 }
 
 TEST(Plunger, OpensATendonOnlyAboveItsOpeningPressureAndForgetsWhenTheTipMoved) {
-  SpaceLaw law;
-  law.kind = SpaceKind::split;
-  law.opening = 150e3;
-  law.peak = 300e3;
-  law.peak_volume = 5e-8;
+  const SpaceLaw law = tissue_that_parts(150e3, 300e3, 5e-8);
   PlungerParams params = water_syringe();
   Plunger plunger(params, one_space(law), 1e-3);
   for (int k = 0; k < 1000; ++k) plunger.step(thumb(15));
