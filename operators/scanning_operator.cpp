@@ -19,6 +19,7 @@ constexpr double kSearchSpeed = 3e-3;  // m/s
 constexpr double kSearchTime = 5;      // s
 constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
+constexpr double kTent = 5e-3;         // m past the target while its wall holds; assumed
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
 constexpr double kNoticed = 0.3e-3;    // m off where it came to rest, which is seen; assumed
@@ -144,7 +145,10 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
   } else {
     seen_time_ = -1;
   }
-  if (glance.stuck || left < -kTooFar || (left <= lag && (seen || bold_until_ > 0 || left < 0))) {
+  const bool there = left <= lag && (seen || bold_until_ > 0 || left < 0);
+  // A wall that tents has come along with the tip: whoever knows goes on until it is felt to give.
+  const bool goes_on = there && glance.tents && left > -kTent && draw() < skill_.look;
+  if (glance.stuck || left < -kTooFar || (there && !goes_on)) {
     begin(Phase::hold, time);
     return;
   }

@@ -27,8 +27,9 @@ struct OperatorSkill {
   double haste = 1;             ///< times the rate that is asked for, of the thumb
   double aspirate = 2.5;        ///< s that the thumb draws back before it gives
   double know = 0.95;           ///< chance of knowing a structure by its look when it comes in view
-  double look = 0.95;           ///< chance of noticing that what is given runs elsewhere
-  double tremor_rms = 20e-6;    ///< m an axis
+  double look = 0.95;         ///< chance of noticing that what is given runs elsewhere, or that the
+                              ///< target's wall has not given way
+  double tremor_rms = 20e-6;  ///< m an axis
 };
 [[nodiscard]] OperatorSkill expert_skill();
 /// `trials`: that the novice has done; errors fall toward the expert's as (1 - 0.069)^n, the rate
@@ -52,6 +53,7 @@ struct ScanGlance {
   Vec3 moved = Vec3::Zero();  ///< m, how the tissue at the target has moved: the picture shows it
                               ///< there
   bool stuck = false;         ///< something hard is felt
+  bool tents = false;         ///< the tip pushes a wall before it that has not given way
   bool astray = false;        ///< enough is given to be seen, and it does not run into the target
   bool given = true;          ///< all is given that was to be, or nothing was
 };

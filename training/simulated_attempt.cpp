@@ -162,6 +162,8 @@ class NeedleAttempt final : public SimulatedAttempt {
     if (tissue && is_structure_) seen.moved = tissue->displacement(target_point_);
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
+    seen.tents = out.feedback.contact == static_cast<std::uint32_t>(ContactState::touching) &&
+                 is_structure_ && !is_target(out.feedback.region);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
     seen.astray = out.feedback.plunger.given > kSeenVolume && !fills_target(out);
     person_.look(t, X_JN, seen);
@@ -171,9 +173,12 @@ class NeedleAttempt final : public SimulatedAttempt {
   [[nodiscard]] bool fills_target(const HapticSnapshot& out) const {
     double there = 0;
     for (std::size_t k = 0; k < std::min<std::size_t>(out.n_sites, kMaxSites); ++k)
-      if (out.sites[k].region < in_target_.size() && in_target_[out.sites[k].region])
-        there += out.sites[k].volume;
+      if (is_target(out.sites[k].region)) there += out.sites[k].volume;
     return 2 * there >= out.feedback.plunger.given;
+  }
+
+  [[nodiscard]] bool is_target(std::uint32_t region) const {
+    return region < in_target_.size() && in_target_[region];
   }
 
   std::shared_ptr<const Scene> scene_;

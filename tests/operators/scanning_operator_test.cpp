@@ -23,7 +23,7 @@ class Giving : public testing::Test {
     return plan;
   }
   /// Glances until `until` s, the needle where the hand wants it.
-  void go(double until, bool given, bool astray) {
+  void go(double until, bool given, bool astray, bool tents = false) {
     for (; time_ < until; time_ += 0.05) {
       const Pose X_JN = hands_.intention(time_).X_JN;
       ScanGlance glance;
@@ -31,6 +31,7 @@ class Giving : public testing::Test {
       glance.depth = std::max(0.0, X_JN.translation().z());
       glance.given = given;
       glance.astray = astray;
+      glance.tents = tents;
       hands_.look(time_, X_JN, glance);
     }
   }
@@ -62,6 +63,25 @@ TEST_F(Giving, WhenTheLineDoesNotSplitItMovesTowardTheTargetAFewTimes) {
   const double settled = depth();
   go(90, false, true);
   EXPECT_DOUBLE_EQ(depth(), settled);
+}
+
+TEST_F(Giving, AWallThatTentsIsPushedThroughButNotForEver) {
+  go(6, false, false, true);
+  EXPECT_FALSE(hands_.holds());
+  EXPECT_GT(depth(), 20e-3);
+  go(30, false, false, true);
+  EXPECT_TRUE(hands_.holds());
+  EXPECT_NEAR(depth(), 25e-3, 1e-3);
+}
+
+TEST_F(Giving, WhatGivesIsNoReasonToGoOn) {
+  go(6, false, false, true);
+  ASSERT_FALSE(hands_.holds());
+  const double there = depth();
+  ASSERT_GT(there, 20e-3);
+  go(7, false, false);
+  EXPECT_TRUE(hands_.holds());
+  EXPECT_NEAR(depth(), there, 1e-3);
 }
 
 TEST_F(Giving, TimeEndsIt) {
