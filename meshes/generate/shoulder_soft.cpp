@@ -11,7 +11,7 @@ namespace artus {
 namespace {
 
 constexpr double kDeltoidBeginsMm = 4.1;  // above the core
-constexpr double kSeptumMm = 0.8;
+constexpr double kSeptumMm = 0.6;
 
 // What deltoid, fat and skin lie around: head, tuberosities and cuff as one smooth bulge that runs
 // out into the shaft. The farther out a layer lies, the softer its hollows (`blend`).
@@ -45,38 +45,36 @@ Field make_deltoid(const Millimetres& mm, const ShoulderSize& size, const Field&
                    distal, mm.length(6));
 }
 
-// A sheet that goes through all of the deltoid below its outer `side`, oblique to the skin and a
-// little wavy, as its intramuscular septa do: `degrees` from lateral to the back, leaning by `lean`
-// degrees. What lies under the deltoid takes its share of it.
-Solid make_septum(const Millimetres& mm, const Field& side, const char* name, double degrees,
-                  double lean) {
-  const double angle = degrees * std::numbers::pi / 180;
-  const double tilt = lean * std::numbers::pi / 180;
+// An intramuscular septum of the deltoid: a lamella that rises gently through the muscle as its
+// bundles do, curved as the muscle is and a little wavy, and thins out to nothing all around.
+struct SeptumCourse {
+  double degrees = 0;  // of its middle, from lateral to the back
+  double across = 0;   // by which it rises to its rim, in the deltoid's thicknesses: to the back
+  double along = 0;    // and upward
+};
+
+// `side`: of the deltoid, toward the skin.
+Solid make_septum(const Millimetres& mm, const ShoulderSize& size, const Field& side,
+                  const char* name, const SeptumCourse& course) {
+  constexpr double kWide = 24 * std::numbers::pi / 180;  // half of it
+  const double angle = course.degrees * std::numbers::pi / 180;
   const Vec3 out(-std::cos(angle), std::sin(angle), 0);
-  const Vec3 along(std::sin(angle), std::cos(angle), 0);
-  const Vec3 normal = std::cos(tilt) * along + std::sin(tilt) * out;
-  const Vec3 through = mm.at(0, 0, 8) + mm.length(40) * out;
-  const double wave = mm.length(1);
+  const Vec3 back(std::sin(angle), std::cos(angle), 0);
+  const double middle = mm.length(11);
+  const double tall = mm.length(25);
   const double half = 0.5 * kSeptumMm * 1e-3;
-  const auto bend = [=](const Vec3& p) {
-    const Vec3 from = (p - through) / wave;
-    return wave * (1.8 * std::sin(from.z() / 9 + angle) + 0.9 * std::sin(from.dot(out) / 3.5));
+  const double thick = size.deltoid;
+  const auto field = [=](const Vec3& p) {
+    const double u = std::atan2(p.dot(back), p.dot(out)) / kWide;
+    const double v = (p.z() - middle) / tall;
+    const double wave = 0.03 * std::sin(7 * v + 3 * u + angle) + 0.02 * std::sin(9 * u - 4 * v);
+    const double depth = thick * (0.5 - course.across * u - course.along * v + wave);
+    const double off = (-side(p) - depth) / half;
+    return half / 2 * (off * off + u * u + v * v - 1);
   };
-  const Field sheet = [=](const Vec3& p) {
-    return std::abs(normal.dot(p - through) - bend(p)) - half;
-  };
-  const Field high = make_half_space(mm.at(0, 0, 34), Vec3::UnitZ());
-  const Field low = make_half_space(mm.at(0, 0, -12), -Vec3::UnitZ());
-  const Field outer_half = make_half_space(0.5 * through, -out);
-  const Field inner = make_ball(mm.at(0, 0, 0), mm.length(28));
-  const Field depth = subtract(grow(side, -1e-3), inner, 0);
-  const Field within = intersect(intersect(intersect(high, low, 0), outer_half, 0), depth, 0);
-  return {name,
-          intersect(sheet, within, half),
-          through + bend(through) * normal,
-          mm.length(140),
-          2.2e-3,
-          0.12e-3};
+  Vec3 inside = middle * Vec3::UnitZ() + mm.length(20) * out;
+  while (field(inside) > -0.3 * half) inside += 0.02e-3 * out;
+  return {name, field, inside, mm.length(140), 2.2e-3, 0.2e-3};
 }
 
 // What lies between two sides, thinning out to nothing towards its rim.
@@ -178,8 +176,8 @@ std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size) {
        0.06e-3},
       {"coracoacromial_ligament", make_coracoacromial_ligament(mm), mm.at(12, -15, 33),
        mm.length(60), 1.2e-3, 0.06e-3},
-      make_septum(mm, deltoid_side, "deltoid_septum_1", -40, -36),
-      make_septum(mm, deltoid_side, "deltoid_septum_2", 4, -36),
+      make_septum(mm, size, deltoid_side, "deltoid_septum_1", {-40, 0.28, 0.12}),
+      make_septum(mm, size, deltoid_side, "deltoid_septum_2", {4, 0.24, -0.16}),
       {"biceps_sheath", make_biceps_sheath(mm), mm.at(-17, -19.7, -10), mm.length(80), 1.2e-3,
        0.05e-3},
       {"joint_fluid", fluid, mm.at(13, 4, -23), mm.length(60), 1.5e-3, 0.08e-3},
