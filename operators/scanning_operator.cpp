@@ -53,19 +53,23 @@ OperatorSkill novice_skill(int trials) {
   novice.aspirate = 0;
   novice.know = 0.35;
   novice.look = 0.2;
+  novice.feel = 0.2;
   novice.tremor_rms = 40e-6;
   const OperatorSkill expert = expert_skill();
   const double left = std::pow(1 - kLearning, std::max(0, trials));
   const auto learn = [left](double OperatorSkill::*of, OperatorSkill& a, const OperatorSkill& b) {
     a.*of = b.*of + left * (a.*of - b.*of);
   };
-  for (const auto of : {&OperatorSkill::aim_sd, &OperatorSkill::entry_sd, &OperatorSkill::view_sd,
-                        &OperatorSkill::view_turn_sd, &OperatorSkill::see, &OperatorSkill::reaction,
-                        &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen,
-                        &OperatorSkill::search_right, &OperatorSkill::drift, &OperatorSkill::follow,
-                        &OperatorSkill::judge_sd, &OperatorSkill::correction, &OperatorSkill::speed,
-                        &OperatorSkill::haste, &OperatorSkill::aspirate, &OperatorSkill::know,
-                        &OperatorSkill::look, &OperatorSkill::tremor_rms})
+  for (const auto of : {&OperatorSkill::aim_sd,       &OperatorSkill::entry_sd,
+                        &OperatorSkill::view_sd,      &OperatorSkill::view_turn_sd,
+                        &OperatorSkill::see,          &OperatorSkill::reaction,
+                        &OperatorSkill::unseen_stop,  &OperatorSkill::advance_unseen,
+                        &OperatorSkill::search_right, &OperatorSkill::drift,
+                        &OperatorSkill::follow,       &OperatorSkill::judge_sd,
+                        &OperatorSkill::correction,   &OperatorSkill::speed,
+                        &OperatorSkill::haste,        &OperatorSkill::aspirate,
+                        &OperatorSkill::know,         &OperatorSkill::look,
+                        &OperatorSkill::feel,         &OperatorSkill::tremor_rms})
     learn(of, novice, expert);
   return novice;
 }
@@ -147,9 +151,13 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
   }
   const bool there = left <= lag && (seen || bold_until_ > 0 || left < 0);
   // A wall that tents has come along with the tip: whoever knows goes on until it is felt to give.
-  const bool goes_on = there && glance.tents && left > -kTent && draw() < skill_.look;
+  if (there && glance.tents && !feels_tent_) feels_tent_ = draw() < skill_.feel;
+  const bool goes_on = there && glance.tents && *feels_tent_ && left > -kTent;
   if (glance.stuck || left < -kTooFar || (there && !goes_on)) {
     begin(Phase::hold, time);
+    // As it gives, the hand stops pushing.
+    if (feels_tent_ == true)
+      phase_distance_ = std::min(phase_distance_, (X_JN.translation() - entry_).dot(direction_));
     return;
   }
   phase_distance_ = depth_meant(time);
@@ -179,6 +187,11 @@ void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& gla
   } else if (glance.astray && nudges_ < kMaxNudges) {
     ++nudges_;
     if (draw() >= skill_.look) return;
+    if (glance.tents) {
+      feels_tent_ = true;
+      begin(Phase::advance, time);
+      return;
+    }
     phase_distance_ += std::copysign(kNudge, to_target);
     phase_time_ = time;
     rested_.reset();

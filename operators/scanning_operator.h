@@ -27,9 +27,9 @@ struct OperatorSkill {
   double haste = 1;             ///< times the rate that is asked for, of the thumb
   double aspirate = 2.5;        ///< s that the thumb draws back before it gives
   double know = 0.95;           ///< chance of knowing a structure by its look when it comes in view
-  double look = 0.95;         ///< chance of noticing that what is given runs elsewhere, or that the
-                              ///< target's wall has not given way
-  double tremor_rms = 20e-6;  ///< m an axis
+  double look = 0.95;           ///< chance of noticing that what is given runs elsewhere
+  double feel = 1;              ///< chance of noticing that the target's wall has not given way
+  double tremor_rms = 20e-6;    ///< m an axis
 };
 [[nodiscard]] OperatorSkill expert_skill();
 /// `trials`: that the novice has done; errors fall toward the expert's as (1 - 0.069)^n, the rate
@@ -98,17 +98,18 @@ class ScanningOperator {
   Vec3 entry_ = Vec3::Zero();
   Vec3 direction_ = Vec3::UnitZ();
   Vec3 x_hint_ = Vec3::UnitX();
-  double judged_ = 0;             // m, this attempt's bias of judged distance
-  double seen_depth_ = 0;         // m, where the tip was last seen
-  double seen_time_ = -1;         // s, since when it is seen
-  std::optional<double> rested_;  // m along the line to the target, where the needle came to rest
-  int nudges_ = 0;                // that were made while injecting
-  double bold_until_ = 0;         // m, depth to which the hand goes on unseen
-  double plane_ = 0;              // m, of the probe beside its plan
-  double plane_turn_ = 0;         // rad
-  double drift_ = 0;              // m/s, signed
-  double plane_speed_ = 0;        // m/s
-  double plane_time_ = 0;         // s, when plane_ held
+  double judged_ = 0;               // m, this attempt's bias of judged distance
+  double seen_depth_ = 0;           // m, where the tip was last seen
+  double seen_time_ = -1;           // s, since when it is seen
+  std::optional<double> rested_;    // m along the line to the target, where the needle came to rest
+  std::optional<bool> feels_tent_;  // that the target's wall has not given way; none: not yet met
+  int nudges_ = 0;                  // that were made while injecting
+  double bold_until_ = 0;           // m, depth to which the hand goes on unseen
+  double plane_ = 0;                // m, of the probe beside its plan
+  double plane_turn_ = 0;           // rad
+  double drift_ = 0;                // m/s, signed
+  double plane_speed_ = 0;          // m/s
+  double plane_time_ = 0;           // s, when plane_ held
 };
 
 }  // namespace artus

@@ -13,7 +13,7 @@ class Giving : public testing::Test {
   static OperatorSkill skill() {
     OperatorSkill skill;
     skill.aim_sd = skill.entry_sd = skill.view_sd = skill.view_turn_sd = skill.judge_sd = 0;
-    skill.see = skill.look = 1;
+    skill.see = skill.look = skill.feel = 1;
     skill.drift = 0;
     return skill;
   }
