@@ -2,6 +2,7 @@
 #include "artus/detail/simulation/fluid_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +11,6 @@
 #include "artus/detail/soft/liquid/injected_body.h"
 #include "artus/detail/soft/liquid/kept_volume.h"
 #include "artus/detail/soft/liquid/overflow.h"
-#include "artus/detail/soft/solver/face_stress.h"
 
 namespace artus {
 namespace {
@@ -28,6 +28,9 @@ constexpr double kPressForce = 0.05;     // N by which a press is another
 constexpr double kPressGrowth = 0.1;     // of the force
 constexpr double kPressDistance = 1e-3;  // m of its middle
 constexpr double kPressTurn = 0.04;      // rad
+constexpr double kNewest = 0.25;         // share of the press as it is now in what shapes a space;
+                                         // of all, a press and what it shapes chase each other
+constexpr double kForgotten = 0.05;      // least share of one
 
 /// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
 bool is_there(const CompiledJoint& joint, std::uint32_t region) {
@@ -73,11 +76,11 @@ double volume_of(const std::vector<Injected>& places) {
 FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
                       std::vector<Injected> places, const Liquid& liquid,
                       const OpenedSpaces& opened, const std::shared_ptr<const DeformedBody>& tissue,
-                      const FluidShape* before) {
+                      std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
   shape.left_out = volume_of(places) - volume_of(with_overflow(opened, places));
   StressAt stress;
-  if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
+  if (tissue && !contacts.empty()) stress = FaceStress(tissue, std::move(contacts));
   const double more = before != nullptr && tissue ? before->more : 1;
   for (Injected& place : places) place.more = more;
   shape.joint =
@@ -110,17 +113,29 @@ FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liqu
       static_cast<std::uint64_t>(kGrowthTime / kShapeTime * static_cast<double>(images_to_change_));
 }
 
-FluidShapes::Press FluidShapes::press_of(const DeformedBody* tissue) {
+FluidShapes::Press FluidShapes::press_of(std::span<const PastContact> contacts) {
   Press press;
-  if (tissue == nullptr) return press;
-  press.into = tissue->contact().into;
   Vec3 moment = Vec3::Zero();
-  for (const PressingPiece& piece : tissue->contact().pieces) {
-    press.force += piece.force;
-    moment += piece.force * piece.p;
-  }
+  for (const auto& [share, contact] : contacts)
+    for (const PressingPiece& piece : contact.pieces) {
+      press.force += share * piece.force;
+      moment += share * piece.force * piece.p;
+    }
+  if (!contacts.empty()) press.into = contacts.front().contact.into;
   if (press.force > 0) press.middle = moment / press.force;
   return press;
+}
+
+/// The newest comes to those before, whose shares shrink.
+void FluidShapes::remember(const ContactForce& contact) {
+  double sum = kNewest;
+  for (PastContact& past : contacts_) {
+    past.share *= 1 - kNewest;
+    if (past.share >= kForgotten) sum += past.share;
+  }
+  std::erase_if(contacts_, [](const PastContact& past) { return past.share < kForgotten; });
+  contacts_.insert(contacts_.begin(), {kNewest, contact});
+  for (PastContact& past : contacts_) past.share /= sum;
 }
 
 bool FluidShapes::has_changed(std::span<const InjectedSite> sites, const Press& press) const {
@@ -172,6 +187,7 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
   if (sites.empty()) {  // a new syringe, and a body that nothing was put into
     if (next_.valid()) next_.get();
     begun_.clear();
+    contacts_.clear();
     state_ = {};
     return state_;
   }
@@ -185,7 +201,8 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
 
 void FluidShapes::follow(std::span<const InjectedSite> sites,
                          const std::shared_ptr<const DeformedBody>& tissue) {
-  const Press press = press_of(tissue.get());
+  Press press;
+  if (tissue) press = press_of(std::array{PastContact{1, tissue->contact()}});
   const bool changed = is_at_rest(sites) || has_changed(sites, press);
   const bool wanted = changed || (made_up_ < kMostInARow && misses_volume());
   seen_.assign(sites.begin(), sites.end());
@@ -193,12 +210,13 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   made_up_ = changed ? 0 : made_up_ + 1;
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
-  begun_under_ = press;
-  next_ = std::async(std::launch::async,
-                     [joint = joint_, liquid = liquid_, opened = opened_, tissue,
-                      before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
-                       return make_shape(joint, places, liquid, *opened, tissue, before.get());
-                     });
+  if (tissue) remember(tissue->contact());
+  begun_under_ = press_of(contacts_);
+  next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, opened = opened_,
+                                          tissue, contacts = contacts_, before = state_.shape,
+                                          places = injected_of(*joint_, spaces_, begun_)] {
+    return make_shape(joint, places, liquid, *opened, tissue, contacts, before.get());
+  });
 }
 
 }  // namespace artus

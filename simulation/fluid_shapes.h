@@ -11,6 +11,7 @@
 #include "artus/detail/simulation/syringe_core.h"
 #include "artus/detail/soft/liquid/opened_spaces.h"
 #include "artus/detail/soft/solver/deformed_body.h"
+#include "artus/detail/soft/solver/face_stress.h"
 #include "artus/detail/soft/solver/soft_body.h"
 #include "artus/raycast/scene.h"
 
@@ -46,9 +47,10 @@ struct FluidState {
 /// The shapes that liquid gives the body, image by image: spaces that open, squeezed by what the
 /// probe puts on them, and tissue that parts, as with_injected says. Each shape is made on a thread
 /// of its own and taken a fixed number of images later, never "when ready": a pure function of what
-/// it was given. A press takes volume from an open space that liquid does not give: the next shape
-/// makes up for it (kept_volume). Where tissue gives way a space goes over into its next shape as
-/// long as that is made. One thread.
+/// it was given. What presses on it is followed by a share a shape: a face that is held presses
+/// more as the space opens below it, and less once it has gone aside. A press takes volume from an
+/// open space that liquid does not give: the next shape makes up for it (kept_volume). Where tissue
+/// gives way a space goes over into its next shape as long as that is made. One thread.
 class FluidShapes {
  public:
   /// `opened`: the joint's, shared with others; null: its own. Requires: a joint whose spaces are
@@ -74,7 +76,8 @@ class FluidShapes {
     Vec3 middle = Vec3::Zero();  // m, of the force
     Vec3 into = Vec3::UnitZ();
   };
-  [[nodiscard]] static Press press_of(const DeformedBody* tissue);
+  [[nodiscard]] static Press press_of(std::span<const PastContact> contacts);
+  void remember(const ContactForce& contact);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
   [[nodiscard]] bool misses_volume() const;
   [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
@@ -88,11 +91,12 @@ class FluidShapes {
   std::uint64_t images_to_grow_;
   std::uint64_t images_ = 0;
   std::uint64_t due_ = 0;
-  std::uint64_t taken_ = 0;          // image of the present shape's first
-  std::vector<InjectedSite> begun_;  // of the newest shape, made or being made
-  Press begun_under_;                // the same
-  std::vector<InjectedSite> seen_;   // of the image before
-  int made_up_ = 0;                  // shapes in a row for what a press takes alone
+  std::uint64_t taken_ = 0;            // image of the present shape's first
+  std::vector<InjectedSite> begun_;    // of the newest shape, made or being made
+  std::vector<PastContact> contacts_;  // that it was shaped under, the newest first
+  Press begun_under_;                  // what they are together
+  std::vector<InjectedSite> seen_;     // of the image before
+  int made_up_ = 0;                    // shapes in a row for what a press takes alone
   std::future<FluidShape> next_;
   FluidState state_;
 };

@@ -23,13 +23,19 @@ double stress_below(const ContactForce& contact, double rise, const Vec3& p) noe
   return 1.5 / std::numbers::pi * sum;
 }
 
-FaceStress::FaceStress(std::shared_ptr<const DeformedBody> body) : body_(std::move(body)) {
+FaceStress::FaceStress(std::shared_ptr<const DeformedBody> body, std::vector<PastContact> contacts)
+    : body_(std::move(body)), contacts_(std::move(contacts)) {
   ARTUS_REQUIRE(body_ != nullptr, "a body is needed");
-  rise_ = std::sqrt(body_->contact().piece_area / std::numbers::pi);
 }
 
 double FaceStress::operator()(const Vec3& p_rest) const noexcept {
-  return stress_below(body_->contact(), rise_, p_rest + body_->displacement(p_rest));
+  const Vec3 p = p_rest + body_->displacement(p_rest);
+  double stress = 0;
+  for (const auto& [share, contact] : contacts_) {
+    const double rise = std::sqrt(contact.piece_area / std::numbers::pi);
+    stress += share * stress_below(contact, rise, p);
+  }
+  return stress;
 }
 
 }  // namespace artus
