@@ -78,7 +78,8 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
                       const OpenedSpaces& opened, const std::shared_ptr<const DeformedBody>& tissue,
                       std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
-  shape.left_out = volume_of(places) - volume_of(with_overflow(opened, places));
+  shape.liquid.given = volume_of(places);
+  shape.liquid.left_out = shape.liquid.given - volume_of(with_overflow(opened, places));
   StressAt stress;
   if (tissue && !contacts.empty()) stress = FaceStress(tissue, std::move(contacts));
   const double more = before != nullptr && tissue ? before->more : 1;
@@ -94,7 +95,8 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
   shape.more = 1 / std::max(kLeastKept, kept);
   // What a press drives out is elsewhere in the space.
   if (more >= kNearlyMost / kLeastKept)
-    shape.left_out += std::max(0.0, 1 - kept * more) * (volume_of(places) - shape.left_out);
+    shape.liquid.left_out +=
+        std::max(0.0, 1 - kept * more) * (shape.liquid.given - shape.liquid.left_out);
   shape.map = map_of(*shape.joint, *tissue, before);
   return shape;
 }

@@ -17,13 +17,19 @@
 
 namespace artus {
 
+/// Liquid that a shape was made of.
+struct DrawnLiquid {
+  double given = 0;     ///< m^3, all that there was as it was begun
+  double left_out = 0;  ///< m^3 of it that the body has no room for (with_overflow)
+};
+
 /// A body with what was injected, at rest.
 struct FluidShape {
   std::shared_ptr<const CompiledJoint> joint;
   std::shared_ptr<const Scene> scene;  ///< rigid; null: it gives way
   std::shared_ptr<const BodyMap> map;  ///< null: rigid
   double made = 1;                     ///< times what was given that its spaces were opened by
-  double left_out = 0;                 ///< m^3 that the body has no room for (with_overflow)
+  DrawnLiquid liquid;
   double more = 1;  ///< times what was given that its spaces' next shape is opened by: see below
 };
 

@@ -59,8 +59,8 @@ class ImageCore {
   }
   /// The body that the last image was drawn from, with what was injected.
   [[nodiscard]] const std::shared_ptr<const Scene>& drawn_scene() const noexcept { return drawn_; }
-  /// m^3 that were injected and are not drawn, as the body has no room for them.
-  [[nodiscard]] double left_out() const noexcept { return left_out_; }
+  /// What was injected into that body.
+  [[nodiscard]] const DrawnLiquid& drawn_liquid() const noexcept { return drawn_liquid_; }
   /// Why the body is rigid though it should give way; empty: it does, or should not.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
 
@@ -88,7 +88,7 @@ class ImageCore {
   std::string refusal_;
   std::shared_ptr<const Scene> rest_;
   std::shared_ptr<const Scene> drawn_;
-  double left_out_ = 0;  // m^3
+  DrawnLiquid drawn_liquid_;
   FluidShapes shapes_;
   FluidScene fluid_;
   LiquidPlume plume_;

@@ -157,8 +157,8 @@ const std::shared_ptr<const Scene>& Simulation::drawn_scene() const noexcept {
   return images_ ? images_->drawn_scene() : scene_;
 }
 
-double Simulation::left_out() const noexcept {
-  return images_ ? images_->left_out() : 0;
+DrawnLiquid Simulation::drawn_liquid() const noexcept {
+  return images_ ? images_->drawn_liquid() : DrawnLiquid();
 }
 
 const Transducer& Simulation::transducer() const noexcept {

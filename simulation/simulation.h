@@ -123,8 +123,8 @@ class Simulation {
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept;
   /// The body that the last picture was drawn from, with what was injected.
   [[nodiscard]] const std::shared_ptr<const Scene>& drawn_scene() const noexcept;
-  /// m^3 that were injected and are not in it, as the body has no room for them.
-  [[nodiscard]] double left_out() const noexcept;
+  /// What was injected into it.
+  [[nodiscard]] DrawnLiquid drawn_liquid() const noexcept;
   /// The probe of the last picture.
   [[nodiscard]] const Transducer& transducer() const noexcept;
   /// Why the body is rigid though it should give way; empty: it does, or should not.

@@ -4,23 +4,26 @@
 #include <algorithm>
 
 #include "artus/detail/anatomy/body/find_region.h"
-#include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/simulation/plain_pose.h"
 
 namespace artus {
 namespace {
 
 constexpr double kDrawn = 1e-9;  // m^3, of which a shape is made
+constexpr double kShown = 0.9;   // of what was given that is at least to be drawn while more comes
 
-void add_site(const CompiledJoint& joint, const JointSpaces& spaces, const InjectedSite& site,
-              GivenLiquid& liquid) {
+void add_site(const CompiledJoint& joint, const InjectedSite& site, GivenLiquid& liquid) {
   if (site.volume < kDrawn || site.region >= joint.regions.size()) return;
   if (liquid.volume == 0) liquid.p_J = Vec3(site.p_J[0], site.p_J[1], site.p_J[2]);
   liquid.volume += site.volume;
-  if (site.cavity == 0) return;
-  const Space& space = spaces.spaces[spaces.of_region[site.region]];
-  liquid.regions.insert(liquid.regions.end(), space.regions.begin(), space.regions.end());
-  liquid.regions.push_back(joint.regions[site.region].name);
+}
+
+/// Spaces that it is in, which may be others than those that it was given to: what parts tissue
+/// beside one tears into it.
+void add_filled(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid) {
+  for (std::size_t r = 0; r < rest.regions.size(); ++r)
+    if (drawn.regions[r].tissue != rest.regions[r].tissue)
+      liquid.regions.push_back(rest.regions[r].name);
 }
 
 /// What liquid parts, which may be more than where it came in: a full space gives to what is
@@ -44,13 +47,12 @@ std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
                                                    std::span<const InjectedSite> sites,
                                                    const Pose& X_JP) {
   if (simulation.drawn_scene() == simulation.scene()) return std::nullopt;
-  const auto spaces = make_joint_spaces(simulation.joint());
-  if (!spaces) return std::nullopt;
   HealthQuestion question;
-  for (const InjectedSite& site : sites)
-    add_site(simulation.joint(), *spaces, site, question.liquid);
-  question.liquid.volume -= simulation.left_out();
+  for (const InjectedSite& site : sites) add_site(simulation.joint(), site, question.liquid);
+  const DrawnLiquid drawn = simulation.drawn_liquid();
+  question.liquid.volume = std::max(drawn.given, kShown * question.liquid.volume) - drawn.left_out;
   if (!(question.liquid.volume > 0)) return std::nullopt;
+  add_filled(simulation.joint(), simulation.drawn_scene()->joint(), question.liquid);
   add_parted(simulation.drawn_scene()->joint(), question.liquid);
   question.before = simulation.scene();
   question.after = simulation.drawn_scene();
