@@ -51,11 +51,15 @@ struct MovingScene::Pool {
     surfaces = std::move(shared);
   }
 
+  void add(const std::shared_ptr<const BodyMap>& of, std::unique_ptr<Scene> scene) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (of && of == map) free.push_back(std::move(scene));
+  }
+
   void give_back(std::unique_ptr<Scene> scene) {
     const std::shared_ptr<const BodyMap> of = map_of(*scene);
     scene->move(nullptr);
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (of && of == map) free.push_back(std::move(scene));
+    add(of, std::move(scene));
   }
 };
 
@@ -82,6 +86,16 @@ std::vector<std::shared_ptr<const Scene>> MovingScene::make_ready(
   std::vector<std::shared_ptr<const Scene>> ready;
   while (ready.size() < count) ready.push_back(at(tissue));
   return ready;
+}
+
+void MovingScene::make_ahead(const std::shared_ptr<const DeformedBody>& tissue,
+                             std::size_t count) const {
+  ARTUS_REQUIRE(tissue != nullptr, "a body is needed");
+  const std::shared_ptr<const BodyMap> map = indexed(tissue->mapped()).map;
+  const std::shared_ptr<const IndexedSurfaces> surfaces = pool_->surfaces_of(map);
+  for (std::size_t k = 0; surfaces && k < count; ++k)
+    // NOLINTNEXTLINE(*-owning-memory): the constructor is private
+    pool_->add(map, std::unique_ptr<Scene>(new Scene(*tissue, options_, surfaces)));
 }
 
 void MovingScene::share(const Scene& other) {

@@ -30,6 +30,10 @@ class MovingScene {
   std::vector<std::shared_ptr<const Scene>> make_ready(
       const std::shared_ptr<const DeformedBody>& tissue, std::size_t count = kGoingRound);
 
+  /// Makes `count` of the surfaces that are shared, which `at` takes; none where another body's are
+  /// by now. From any thread: what `at` answers does not depend on when it is done.
+  void make_ahead(const std::shared_ptr<const DeformedBody>& tissue, std::size_t count) const;
+
   /// Scenes of the same surfaces as `other`, which another MovingScene made, share with it what of
   /// an index does not move: four tenths of its memory.
   void share(const Scene& other);

@@ -24,17 +24,19 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
   return map_;
 }
 
-/// Indices of the scenes that go round: a shape that opens a space has the body's surfaces.
+/// Indices of the scenes that go round: a shape that opens a space has the body's surfaces. They
+/// are shared whether or not an earlier thread is done, on which no byte of a picture may depend.
 void FluidScene::prepare(const Scene& body) {
   const std::shared_ptr<const DeformedBody>& tissue = body.tissue();
-  if (!tissue || tissue->shared_map() == prepared_) return;
+  if (!tissue) return;
+  scenes_.share(body);
+  if (tissue->shared_map() == prepared_) return;
   if (preparing_.valid() &&
       preparing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
   prepared_ = tissue->shared_map();
-  scenes_.share(body);
-  preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue, n = n_scenes_]() mutable {
-    scenes.make_ready(tissue, n);
+  preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue, n = n_scenes_] {
+    scenes.make_ahead(tissue, n);
   });
 }
 

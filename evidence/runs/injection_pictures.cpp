@@ -315,7 +315,14 @@ std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const Injec
 void tell_overflow(const std::vector<Injected>& given, const std::vector<Injected>& drawn,
                    std::vector<std::string>& lines) {
   double less = 0;
-  for (std::size_t k = 0; k < given.size(); ++k) less += given[k].volume - drawn[k].volume;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const double spread = given[k].volume - drawn[k].volume;
+    if (given[k].cavity)
+      less += spread;
+    else if (spread > kDrawn)
+      lines.push_back(printed("%.2f ml spread in thin ", spread / kCubicCentimetre) +
+                      given[k].region + " and are not drawn");
+  }
   for (std::size_t k = given.size(); k < drawn.size(); ++k) {
     less -= drawn[k].volume;
     lines.push_back(printed("%.2f ml are more than the space holds, and part ",

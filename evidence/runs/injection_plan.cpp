@@ -7,6 +7,7 @@
 namespace artus {
 namespace {
 
+constexpr double kOnBone = 0.3e-3;       // m that a hand presses the tip onto bone by; assumed
 constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 
 double middle_of(const LineLayer& layer) {
@@ -47,6 +48,17 @@ std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Ve
   return std::nullopt;
 }
 
+/// What lies on the bone that the target is in.
+RegionId region_on_bone(const Scene& scene, const InjectionSpec& spec) {
+  RegionId before = scene.region_at(spec.target);
+  for (const TissueInterval& s : tissue_intervals(scene, {spec.entry, spec.target})) {
+    if (s.region < kFirstRegion) continue;
+    if (scene.joint().tissue_of(s.region).haptic.hard) break;
+    before = s.region;
+  }
+  return before;
+}
+
 }  // namespace
 
 Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
@@ -67,6 +79,8 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
   plan.region = into.value_or(scene.region_at(spec.target));
   if (plan.region < kFirstRegion)
     return fail(ErrorCode::invalid, "the target lies outside of the meshed body", spec.name);
+  plan.on_bone = scene.joint().tissue_of(plan.region).haptic.hard;
+  if (plan.on_bone) plan.region = region_on_bone(scene, spec);
   const auto layer = find_layer(scene, spec.entry, plan.direction, plan.region);
   if (!layer)
     return fail(ErrorCode::invalid,
@@ -79,6 +93,7 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
 
 double stop_in(const LinePlan& plan, const LineLayer& now, double opening) {
   if (plan.by_name) return tip_in_middle(now, opening);
+  if (plan.on_bone) return now.to + kOnBone;
   const LineLayer& rest = plan.layer;
   const bool inside = plan.wanted >= rest.from && plan.wanted <= rest.to && rest.to > rest.from;
   const double share = inside ? (plan.wanted - rest.from) / (rest.to - rest.from) : 0.5;

@@ -12,15 +12,16 @@ struct LinePlan {
   Vec3 direction = Vec3::UnitZ();
   RegionId region = kOutside;  ///< to inject
   bool by_name = false;        ///< or the target's own
+  bool on_bone = false;        ///< or what lies on the bone that the target is in
   LineLayer layer;             ///< of it, at rest
   double wanted = 0;           ///< m along the line, the target
   bool solid = false;          ///< nothing goes in: the target as it is
 };
 
 /// Where a spec's line goes. As in three-injections a bursa on it is what is meant, unless the
-/// target is in a cavity already. Errors: invalid (volume or rate not above 0, a press below 0,
-/// entry and target the same point, a target outside of the meshed body, a line that does not meet
-/// the structure).
+/// target is in a cavity already; where the target is in bone, what lies on that. Errors: invalid
+/// (volume or rate not above 0, a press below 0, entry and target the same point, a target outside
+/// of the meshed body, a line that does not meet the structure).
 [[nodiscard]] Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec);
 
 /// m along the line where the tip stops, the bevel's opening (m) in the layer as it is now: by

@@ -108,23 +108,30 @@ class Walls {
     double nearest = kFarAway;
     bool out = true;
     for (const Wall& wall : walls_) {
-      const Vec3 normal = wall.ab.cross(wall.ac);
-      const double facing = d.dot(normal);
-      const double t = (wall.a - p).dot(normal) / facing;
-      if (!(t > 0 && t < nearest)) continue;
-      const Vec3 q = p + t * d - wall.a;
-      const double whole = normal.squaredNorm();
-      const double u = q.cross(wall.ac).dot(normal) / whole;
-      const double v = wall.ab.cross(q).dot(normal) / whole;
-      if (u < 0 || v < 0 || u + v > 1) continue;
-      nearest = t;
-      out = facing * wall.outward > 0;
+      const auto [at, leaves] = meet(wall, p, d);
+      if (!(at > 0 && at < nearest)) continue;
+      nearest = at;
+      out = leaves;
     }
     return out ? nearest : 0;
   }
-  /// The shorter of the two paths.
-  [[nodiscard]] double reach_both(const Vec3& p, const Vec3& d) const {
-    return std::min(reach(p, d), reach(p, -d));
+  /// m from wall to wall along d (unit) where the region is nearest to p on that line; 0: nowhere.
+  [[nodiscard]] double width(const Vec3& p, const Vec3& d) const {
+    std::vector<std::pair<double, bool>> met;
+    for (const Wall& wall : walls_)
+      if (const auto one = meet(wall, p, d); std::abs(one.first) < kFarAway) met.push_back(one);
+    std::sort(met.begin(), met.end());
+    double nearest = kFarAway;
+    double width = 0;
+    for (std::size_t k = 1; k < met.size(); ++k) {
+      const double from = met[k - 1].first;
+      const double to = met[k].first;
+      const double away = std::max({0.0, from, -to});
+      if (met[k - 1].second || !met[k].second || away >= nearest) continue;
+      nearest = away;
+      width = to - from;
+    }
+    return width;
   }
 
  private:
@@ -134,6 +141,19 @@ class Walls {
     Vec3 ac;
     double outward;  // 1: its normal leads out of the region
   };
+  /// m from p along d to a wall, kFarAway where the line misses it; whether it leaves the region.
+  [[nodiscard]] static std::pair<double, bool> meet(const Wall& wall, const Vec3& p,
+                                                    const Vec3& d) {
+    const Vec3 normal = wall.ab.cross(wall.ac);
+    const double facing = d.dot(normal);
+    const double at = (wall.a - p).dot(normal) / facing;
+    const Vec3 q = p + at * d - wall.a;
+    const double whole = normal.squaredNorm();
+    const double u = q.cross(wall.ac).dot(normal) / whole;
+    const double v = wall.ab.cross(q).dot(normal) / whole;
+    const bool met = u >= 0 && v >= 0 && u + v <= 1;
+    return {met ? at : kFarAway, facing * wall.outward > 0};
+  }
   std::vector<Wall> walls_;
 };
 
@@ -238,6 +258,16 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
   return boluses;
 }
 
+double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
+  bool fibrous = false;
+  const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
+  const BevelFlow bevel_flow = bevel_flow_of(joint, region, fibrous);
+  const double width = Walls(joint, region).width(tip, axes.col(2));
+  if (bevel_flow.apart > 0 || !(width > 0)) return std::numeric_limits<double>::infinity();
+  const double side = width / 2 / bevel_flow.full.z();
+  return kBall * bevel_flow.full.prod() * side * side * side;
+}
+
 CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
                            const Liquid& liquid) {
   CompiledJoint with = joint;
@@ -320,7 +350,8 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
       const auto region = static_cast<RegionId>(at - joint.regions.begin());
       if (region < kFirstRegion) continue;
       if (!cavity) {
-        with = with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
+        with = with_boluses(with, make_boluses(with, region, place.tip, place.more * place.volume),
+                            liquid);
         continue;
       }
       const OpenedSpace* space = &spaces.of(region);

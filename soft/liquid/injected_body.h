@@ -31,6 +31,11 @@ struct Bolus {
 [[nodiscard]] std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region,
                                               const Vec3& tip, double volume);
 
+/// m^3 that part a tissue without fibres at `tip` until what lies there is as thick as the layer
+/// itself; infinite for others, and where the layer is not above or below the tip. Cost: linear in
+/// the region's interfaces.
+[[nodiscard]] double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip);
+
 /// The joint with the boluses as one more region, "injected", of `liquid`. One after another
 /// pushes all around it aside as BolusOpening says: bones stay, to the last bit. Interfaces beside
 /// it are cut finer (new vertices after the joint's), so that they follow that map. Their polyhedra
@@ -46,7 +51,7 @@ struct Injected {
   bool cavity = false;      ///< a space that opens; otherwise tissue that parts
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
   double pressure = 0;      ///< Pa of the liquid there when nothing presses; at least 500 is taken
-  double more = 1;          ///< times what is drawn of it that its space is opened by
+  double more = 1;          ///< times what is drawn of it that is put in
 };
 /// Pa that presses on a material point (rest, m, frame J) from outside.
 using StressAt = std::function<double(const Vec3&)>;

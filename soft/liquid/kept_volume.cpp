@@ -42,6 +42,7 @@ double kept_volume(const CompiledJoint& shape, const CompiledJoint& rest,
   std::vector<bool> filled;
   for (std::size_t r = 0; r < rest.regions.size(); ++r)
     filled.push_back(shape.regions[r].tissue != rest.regions[r].tissue);
+  filled.resize(shape.regions.size(), true);  // what parts tissue is a region more
   const Held with = held_in(shape.mesh, filled, tissue);
   const Held without = held_in(rest.mesh, filled, tissue);
   const double given = with.rest - without.rest;

@@ -5,9 +5,9 @@
 
 namespace artus {
 
-/// What share of the liquid in its spaces a body has once tissue has moved, of that at rest: a
-/// field of displacements keeps tissue's volume nearly, and a space's not at all. `shape`: the
-/// joint `rest` with what was injected. 1: nothing is in a space. Cost: a look-up for each corner
+/// What share of the liquid in it a body has once tissue has moved, of that at rest: a field of
+/// displacements keeps tissue's volume nearly, and a space's not at all. `shape`: the joint `rest`
+/// with what was injected. 1: nothing is in it. Cost: a look-up for each corner
 /// of the spaces' walls.
 [[nodiscard]] double kept_volume(const CompiledJoint& shape, const CompiledJoint& rest,
                                  const DeformedBody& tissue);

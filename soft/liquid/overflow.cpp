@@ -172,12 +172,16 @@ bool spill(const OpenedSpaces& spaces, const JointSpaces& laws, std::vector<Inje
   return spilt;
 }
 
-/// What is in parts of a space that the body does not have.
+/// What is in parts of a space that the body does not have, or spreads in a thin layer of tissue.
 void leave_out(const OpenedSpaces& spaces, std::vector<Injected>& places) {
   const CompiledJoint& joint = spaces.joint();
   for (std::size_t k = places.size(); k-- > 0;) {
     const auto region = find_region(joint, places[k].region);
-    if (!places[k].cavity || !region) continue;
+    if (!region || *region < kFirstRegion || !(places[k].volume > kDrawn)) continue;
+    if (!places[k].cavity) {
+      places[k].volume = std::min(places[k].volume, room_at(joint, *region, places[k].tip));
+      continue;
+    }
     const OpenedSpace& space = spaces.of(*region);
     const double more = given_to(space, joint, places) - space.max_volume();
     places[k].volume -= std::clamp(more, 0.0, places[k].volume);

@@ -213,6 +213,26 @@ TEST(MovingScene, AnswersTheSameWhereItSharesAnothersSurfaces) {
   EXPECT_EQ(first->normal_at_rest(0), second->normal_at_rest(0));
 }
 
+/// When it is done changes no byte: it takes what is shared, and leaves another body's scenes
+/// alone.
+TEST(MovingScene, MadeAheadItGivesWhatItWouldHaveMade) {
+  const test::MovedBlock block = make_block();
+  const std::array<test::FlatLayer, 2> layers{{{"skin", 4e-3}, {"fat", 20e-3}}};
+  const test::MovedBlock other = test::make_moved_block(layers);
+  const auto shared = make_scene(block.moved(dent));
+  MovingScene scenes;
+  scenes.make_ahead(block.at_rest(), 2);  // nothing is shared yet
+  scenes.share(*shared);
+  scenes.make_ahead(block.at_rest(), 2);
+  const auto first = scenes.at(block.moved(dent));
+  scenes.make_ahead(other.at_rest(), 2);
+  const auto second = scenes.at(block.at_rest());
+  MovingScene plain;
+  plain.share(*shared);
+  EXPECT_TRUE(same_bytes(answers(*first), answers(*plain.at(block.moved(dent)))));
+  EXPECT_TRUE(same_bytes(answers(*second), answers(*plain.at(block.at_rest()))));
+}
+
 /// Of another body nothing is shared, though it was offered.
 TEST(MovingScene, SharesNothingWithAnotherBody) {
   const test::MovedBlock block = make_block();
