@@ -104,13 +104,9 @@ void NeedleTissue::step(const SoftBody& body, const Scene& scene,
   track_ = *track;
   old_ = false;
   due_ = images_ + to_take_;
-  next_ = std::async(std::launch::async, [&solver = body.solver(), track = track_] {
-    return compute_needle_compliance(solver, track);
+  next_ = std::async(std::launch::async, [factored = body.solver().factored(), track = track_] {
+    return compute_needle_compliance(factored, track);
   });
-}
-
-void NeedleTissue::let_go() const {
-  if (next_.valid()) next_.wait();
 }
 
 void NeedleTissue::forget() {

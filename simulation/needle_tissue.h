@@ -33,8 +33,6 @@ class NeedleTissue {
   /// us.
   void step(const SoftBody& body, const Scene& scene, const std::optional<NeedleGrip>& needle);
 
-  /// Before the solver's factor changes or the body goes: waits for what is computed with it.
-  void let_go() const;
   /// The body is in another cage. The compliance stays until there is one of the new cage: the
   /// tissue is the same.
   void forget();

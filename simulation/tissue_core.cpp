@@ -168,7 +168,6 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   SoftSolver& solver = body_.solver();
   if (solver.refreshing()) {
     if (images_ < factor_due_) return;
-    needle_.let_go();
     solver.end_refresh();
     needle_.renew();
     return;
@@ -178,7 +177,6 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   if (X_JP) X_JP_factor_ = *X_JP;
   keep_state_of_factor();
   if (waits_) {
-    needle_.let_go();
     solver.refresh();
     needle_.renew();
     return;

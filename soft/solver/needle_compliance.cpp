@@ -80,11 +80,11 @@ double cube_displacement(const NeedleCompliance& compliance, const NeedleLoad& l
          cube_compliance(compliance, load.tip_depth) * load.tip;
 }
 
-NeedleCompliance compute_needle_compliance(const SoftSolver& solver, const NeedleLine& track,
+NeedleCompliance compute_needle_compliance(const FactoredModel& factored, const NeedleLine& track,
                                            std::size_t points) {
   ARTUS_REQUIRE(points > 0 && points <= NeedleCompliance::kMax, "1 to 16 points");
   ARTUS_REQUIRE(track.length > 0 && track.radius > 0, "a track with length and radius");
-  const SoftModel& model = solver.model();
+  const SoftModel& model = *factored.model;
   const Vec3 axis = track.axis.normalized();
   NeedleCompliance out;
   out.points = points;
@@ -99,7 +99,7 @@ NeedleCompliance compute_needle_compliance(const SoftSolver& solver, const Needl
     Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
     model.add_force(place, axis, x);
     loads.col(i) = x;
-    solver.factor().solve(x);
+    factored.factor->solve(x);
     moved.col(i) = x;
     const auto k = static_cast<std::size_t>(i);
     out.near_field[k] = near_field(model, place, track, out.spacing);

@@ -56,7 +56,7 @@ struct NeedleLine {
   double radius = 0.36e-3;    ///< m, of the needle; 22 G
 };
 
-/// Compliance of the track's points by the solver's present factor, C = G K^-1 G^T. A force on a
+/// Compliance of the track's points by the factor, C = G K^-1 G^T. A force on a
 /// line inside a cube only feels a cube's stiffness, so the field between the needle's radius r and
 /// the radius R at which the cube's field begins is added to each point: ln(R/r) / (2 pi mu l), l
 /// the point's length and mu the tissue's shear modulus there; R is 0.2 to 0.7 cubes, by where the
@@ -64,7 +64,7 @@ struct NeedleLine {
 /// close to the tip is in the laws of cutting and puncture, which were measured at the hand. Points
 /// in what is held are as rigid as that near field.
 /// Requires: length and radius > 0. Cost: a solution of the factor for each point.
-[[nodiscard]] NeedleCompliance compute_needle_compliance(const SoftSolver& solver,
+[[nodiscard]] NeedleCompliance compute_needle_compliance(const FactoredModel& factored,
                                                          const NeedleLine& track,
                                                          std::size_t points = 16);
 

@@ -2,6 +2,7 @@
 #include "artus/detail/soft/solver/soft_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -30,8 +31,8 @@ SoftSolver::SoftSolver(std::shared_ptr<const SoftModel> model,
                        std::vector<std::uint32_t> contact_unknowns, const SoftSolverParams& params)
     : model_(std::move(model)), params_(params), root_(std::move(contact_unknowns)) {
   const Dissection plan = dissect(model_->graph(), model_->unknown_places(), root_);
-  factor_ = std::make_unique<Cholesky>(plan);
-  spare_ = std::make_unique<Cholesky>(plan);
+  factor_ = std::make_shared<Cholesky>(plan);
+  spare_ = std::make_shared<Cholesky>(plan);
   reset();
 }
 
@@ -167,6 +168,8 @@ void SoftSolver::evaluate() {
 bool SoftSolver::make_factor(std::span<const Vec3> u, std::span<const double> targets) {
   BlockMatrix tangent(model_->graph());
   model_->assemble_tangent(u, targets, tangent);
+  if (spare_.use_count() > 1) spare_ = std::make_shared<Cholesky>(*spare_);  // held elsewhere
+  std::atomic_thread_fence(std::memory_order_acquire);  // after what its last holder read
   if (!spare_->factorize(tangent)) return false;
   spare_inverse_ = spare_->root_inverse().cast<float>();
   spare_columns_ = columns_of(*spare_);

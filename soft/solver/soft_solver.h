@@ -57,6 +57,12 @@ struct SoftStep {
   ContactForce contact;
 };
 
+/// A model and a factor of its tangent, which do not change.
+struct FactoredModel {
+  std::shared_ptr<const SoftModel> model;
+  std::shared_ptr<const Cholesky> factor;
+};
+
 /// The body as it gives way: displacement of the nodes, forces of the face, and the factor of a
 /// tangent that is refreshed when asked. Quasi-static with one relaxation time: a step of dt goes
 /// the share 1 - exp(-dt/tau) of the displacement. Quasi-Newton: the factor may be older than the
@@ -118,6 +124,8 @@ class SoftSolver {
   [[nodiscard]] const SoftForces& forces() const noexcept { return forces_; }
   [[nodiscard]] const SoftModel& model() const noexcept { return *model_; }
   [[nodiscard]] const Cholesky& factor() const noexcept { return *factor_; }
+  /// Both, for another thread: they stay as they are while somebody holds them.
+  [[nodiscard]] FactoredModel factored() const noexcept { return {model_, factor_}; }
   /// What the face would press with if the tissue came to rest under it as it is now, by the last
   /// step's tangent. Zero without one.
   [[nodiscard]] FacePress press_at_rest() const;
@@ -159,8 +167,8 @@ class SoftSolver {
   std::shared_ptr<const SoftModel> model_;
   SoftSolverParams params_;
   std::vector<std::uint32_t> root_;
-  std::unique_ptr<Cholesky> factor_;
-  std::unique_ptr<Cholesky> spare_;
+  std::shared_ptr<Cholesky> factor_;
+  std::shared_ptr<Cholesky> spare_;
   std::unique_ptr<FaceContact> contact_;
   Eigen::MatrixXf root_inverse_;
   Eigen::MatrixXf spare_inverse_;

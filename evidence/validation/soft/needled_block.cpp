@@ -24,7 +24,7 @@ NeedleLine NeedledBlock::track(double radius) {
 }
 
 NeedleCompliance NeedledBlock::compliance(double radius) const {
-  return compute_needle_compliance(*solver, track(radius));
+  return compute_needle_compliance(solver->factored(), track(radius));
 }
 
 }  // namespace artus

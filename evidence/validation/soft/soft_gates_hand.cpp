@@ -273,9 +273,9 @@ Gate gate_shaft() {
     solver.refresh();
     NeedleLine track = NeedledBlock::track(kRadius21);
     track.length = 24e-3;
-    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver, track)));
+    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver.factored(), track)));
     track.entry = Vec3(0.5 * cube, 0.5 * cube, 0);
-    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver, track)));
+    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver.factored(), track)));
   }
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
   gate.claims.push_back(claim_near({ClaimKind::independent, "cubes' radius by [Peaceman1978]"},
