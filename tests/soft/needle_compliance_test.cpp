@@ -104,5 +104,19 @@ TEST(NeedleCompliance, DoesNotDependOnTheCubesNorOnWhereTheTrackPassesThem) {
                                << " " << found[4] << " " << found[5];
 }
 
+TEST(NeedleCompliance, StaysThatOfAFactorWhichIsHeldWhileTheSolverMakesOthers) {
+  const Block b(4e-3);
+  SoftSolver solver(b.model, {});
+  const FactoredModel held = solver.factored();
+  const NeedleCompliance before = compute_needle_compliance(held, straight());
+  solver.set_loads({{Vec3(0, 0, 3e-3), Vec3(0, 0, 0.3)}});
+  for (int i = 0; i < 3; ++i) {  // each makes one factor, and the spare one is the held one
+    solver.settle(std::nullopt, 1e-9);
+    ASSERT_TRUE(solver.refresh());
+  }
+  EXPECT_EQ(compute_needle_compliance(held, straight()).by_load, before.by_load);
+  EXPECT_NE(compute_needle_compliance(solver.factored(), straight()).by_load, before.by_load);
+}
+
 }  // namespace
 }  // namespace artus
