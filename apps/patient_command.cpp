@@ -44,12 +44,14 @@ Result<nlohmann::json> list_of(const PatientCommandOptions& options, const Popul
   ARTUS_TRY(joint);
   json["parameters"] = nlohmann::json::array();
   for (const JointParameter& p : joint->parameters)
-    json["parameters"].push_back({{"name", p.name},
-                                  {"title", p.title},
-                                  {"unit", p.unit},
-                                  {"modelled", p.modelled},
-                                  {"least", p.least},
-                                  {"most", p.most}});
+    json["parameters"].push_back(
+        {{"name", p.name},
+         {"title", p.title},
+         {"unit", p.unit},
+         {"modelled", p.modelled},
+         {"least", p.least},
+         {"most", p.most},
+         {"usual", p.usual ? nlohmann::json(*p.usual) : nlohmann::json()}});
   return json;
 }
 

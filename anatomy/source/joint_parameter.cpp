@@ -42,7 +42,11 @@ ParameterEntry read_parameter(const std::string& name, const toml::table& table,
   p.most = toml.required_number("most", -kFarthestValue, kFarthestValue);
   if (p.least > p.modelled || p.modelled > p.most)
     toml.problem("'modelled' must lie between 'least' and 'most'");
+  p.usual = toml.number("usual", -kFarthestValue, kFarthestValue);
+  if (p.usual && (*p.usual < p.least || p.most < *p.usual))
+    toml.problem("'usual' must lie between 'least' and 'most'");
   out.variant = toml.text("variant").value_or("");
+  if (p.usual && out.variant.empty()) toml.problem("'usual' is a variant's: it needs 'variant'");
   for (const toml::table* one : toml.tables("acts")) {
     TomlTable act(*one, "parameter '" + name + "': acts", problems);
     ParameterAction action;
@@ -258,13 +262,14 @@ std::vector<std::string> apply_patient(toml::table& joint, const std::vector<Pat
     const auto at = std::find_if(patient.begin(), patient.end(), [&](const PatientValue& v) {
       return v.name == entry.parameter.name;
     });
-    if (at == patient.end()) continue;
+    const bool said = at != patient.end();
+    const bool chosen =
+        std::find(variants.begin(), variants.end(), entry.variant) != variants.end();
+    if (!said && !(chosen && entry.parameter.usual)) continue;
+    const double value = said ? at->value : *entry.parameter.usual;
     for (const ParameterAction& action : entry.actions)
-      apply_action(joint, action, at->value - entry.parameter.modelled, entry.parameter.name,
-                   problems);
-    if (!entry.variant.empty() && at->value >= kYes &&
-        std::find(variants.begin(), variants.end(), entry.variant) == variants.end())
-      variants.push_back(entry.variant);
+      apply_action(joint, action, value - entry.parameter.modelled, entry.parameter.name, problems);
+    if (!entry.variant.empty() && value >= kYes && !chosen) variants.push_back(entry.variant);
   }
   std::sort(variants.begin(), variants.end());
   joint.erase("parameter");

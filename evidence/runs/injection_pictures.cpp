@@ -19,6 +19,7 @@
 #include "artus/detail/evidence/runs/injection_view.h"
 #include "artus/detail/soft/liquid/injected_body.h"
 #include "artus/detail/soft/liquid/overflow.h"
+#include "artus/detail/training/health/simulated_health.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -280,24 +281,20 @@ void measure_opening(const OpenedSpaces& spaces, const std::vector<Injected>& pl
   }
 }
 
-/// What was put where, without the two bodies.
-HealthQuestion question_of(const Scene& scene, const std::vector<Injected>& places,
+/// Of what was put where.
+HealthQuestion question_of(const std::shared_ptr<const Scene>& rest,
+                           const std::shared_ptr<const Scene>& drawn,
+                           const std::vector<Injected>& places, const Pose& X_JP,
                            const InjectionPictureOptions& options) {
   HealthQuestion question;
+  question.before = rest;
+  question.after = drawn;
+  question.X_JP = X_JP;
   question.transducer = options.transducer;
   question.settings = options.settings;
-  const auto spaces = make_joint_spaces(scene.joint());
-  for (const Injected& place : places) {
-    if (question.liquid.volume == 0) question.liquid.p_J = place.tip;
-    question.liquid.volume += place.volume;
-    if (!place.cavity) question.liquid.parted.push_back(place.region);
-    question.liquid.regions.push_back(place.cavity ? place.region : "injected");
-    if (!place.cavity || !spaces) continue;
-    for (const Space& space : spaces->spaces)
-      if (std::count(space.regions.begin(), space.regions.end(), place.region) > 0)
-        question.liquid.regions.insert(question.liquid.regions.end(), space.regions.begin(),
-                                       space.regions.end());
-  }
+  if (!places.empty()) question.liquid.p_J = places.front().tip;
+  for (const Injected& place : places) question.liquid.volume += place.volume;
+  add_drawn(rest->joint(), drawn->joint(), question.liquid);
   return question;
 }
 
@@ -314,26 +311,22 @@ std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const Injec
 /// What is not where it was given, a line each.
 void tell_overflow(const std::vector<Injected>& given, const std::vector<Injected>& drawn,
                    std::vector<std::string>& lines) {
+  const auto tell = [&](double volume, const std::string& what) {
+    lines.push_back(printed("%.2f ml ", volume / kCubicCentimetre) + what);
+  };
   double less = 0;
   for (std::size_t k = 0; k < given.size(); ++k) {
     const double spread = given[k].volume - drawn[k].volume;
-    if (given[k].cavity)
-      less += spread;
-    else if (spread > kDrawn)
-      lines.push_back(printed("%.2f ml spread in thin ", spread / kCubicCentimetre) +
-                      given[k].region + " and are not drawn");
+    if (given[k].cavity) less += spread;
+    if (!given[k].cavity && spread > kDrawn)
+      tell(spread, "spread too thin to be drawn in " + given[k].region);
   }
   for (std::size_t k = given.size(); k < drawn.size(); ++k) {
     less -= drawn[k].volume;
-    lines.push_back(printed("%.2f ml are more than the space holds, and part ",
-                            drawn[k].volume / kCubicCentimetre) +
-                    drawn[k].region);
+    tell(drawn[k].volume, "are more than the space holds, and part " + drawn[k].region);
   }
   if (less > kDrawn)
-    lines.push_back(
-        printed("%.2f ml are in parts of the space that the body does not have, and "
-                "are not drawn",
-                less / kCubicCentimetre));
+    tell(less, "are in parts of the space that the body does not have, and are not drawn");
 }
 
 }  // namespace
@@ -416,10 +409,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(spaces, last, out);
-  out.at_rest = question_of(*scene, last, deep);
-  out.at_rest.before = scene;
-  out.at_rest.after = body;
-  out.at_rest.X_JP = X_JP;
+  out.at_rest = question_of(scene, body, last, X_JP, deep);
   return out;
 }
 

@@ -241,6 +241,38 @@ TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
   EXPECT_NEAR(press(-5e-3, 90), open, 0.02e-3) << "it comes back";
 }
 
+/// Under the skin of a wrist the face presses several times as much as the space opens below it, so
+/// that what is squeezed aside at once would come back at once.
+TEST(FluidCore, AFaceThatIsHeldAndTheLiquidBelowItComeToRest) {
+  const std::array<FlatLayer, 5> layers{
+      {{"skin", 1.5e-3}, {"fat", 1.5e-3}, {"bursa", 1e-3}, {"tendon", 3e-3}, {"bone", 20e-3}}};
+  const auto scene = std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 3e-3)));
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  ImageCore core(scene, params);
+  ASSERT_TRUE(core.refusal().empty()) << core.refusal();
+  FrameInput input;
+  input.controls = controls_of(params);
+  input.has_probe = 1;
+  input.sites[0] = site_in(scene->joint(), "bursa", 3.5e-3, 1e-6);
+  input.n_sites = 1;
+  Pose X_JP = scene->joint().X_JP_default;
+  X_JP.translation() += 0.3e-3 * X_JP.linear().col(2);
+  input.X_JP = to_plain(X_JP);
+  double least = 1e3;
+  double most = 0;
+  for (input.number = 1; input.number <= 400; ++input.number) {
+    static_cast<void>(core.render(input));
+    if (input.number <= 250) continue;
+    const double force = force_at_rest(core.packet()->probe, X_JP).force;
+    least = std::min(least, force);
+    most = std::max(most, force);
+  }
+  EXPECT_GT(least, 0.2);
+  EXPECT_LT(most, 1.3 * least);
+}
+
 /// Pixels in colour of the last of `flowing` images with 0.1 ml/s and `still` without.
 std::ptrdiff_t coloured_pixels(const std::shared_ptr<const Scene>& scene, std::uint64_t flowing,
                                std::uint64_t still) {

@@ -18,17 +18,12 @@ void add_site(const CompiledJoint& joint, const InjectedSite& site, GivenLiquid&
   liquid.volume += site.volume;
 }
 
-/// Spaces that it is in, which may be others than those that it was given to: what parts tissue
-/// beside one tears into it.
-void add_filled(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid) {
+}  // namespace
+
+void add_drawn(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid) {
   for (std::size_t r = 0; r < rest.regions.size(); ++r)
     if (drawn.regions[r].tissue != rest.regions[r].tissue)
       liquid.regions.push_back(rest.regions[r].name);
-}
-
-/// What liquid parts, which may be more than where it came in: a full space gives to what is
-/// around.
-void add_parted(const CompiledJoint& drawn, GivenLiquid& liquid) {
   const auto injected = find_region(drawn, "injected");
   if (!injected) return;
   liquid.regions.emplace_back("injected");
@@ -41,8 +36,6 @@ void add_parted(const CompiledJoint& drawn, GivenLiquid& liquid) {
   liquid.parted.erase(std::unique(liquid.parted.begin(), liquid.parted.end()), liquid.parted.end());
 }
 
-}  // namespace
-
 std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
                                                    std::span<const InjectedSite> sites,
                                                    const Pose& X_JP) {
@@ -52,8 +45,7 @@ std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
   const DrawnLiquid drawn = simulation.drawn_liquid();
   question.liquid.volume = std::max(drawn.given, kShown * question.liquid.volume) - drawn.left_out;
   if (!(question.liquid.volume > 0)) return std::nullopt;
-  add_filled(simulation.joint(), simulation.drawn_scene()->joint(), question.liquid);
-  add_parted(simulation.drawn_scene()->joint(), question.liquid);
+  add_drawn(simulation.joint(), simulation.drawn_scene()->joint(), question.liquid);
   question.before = simulation.scene();
   question.after = simulation.drawn_scene();
   question.X_JP = X_JP;

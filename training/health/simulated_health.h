@@ -9,6 +9,11 @@
 
 namespace artus {
 
+/// Spaces that liquid is in and tissues that it parts, by what a drawn body has beside the one at
+/// rest: they may be more than where it came in, since a full space gives to what is around, and
+/// what parts tissue beside a space tears into it.
+void add_drawn(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid);
+
 /// The body of a simulation's last picture beside the same without liquid, under the same press.
 /// `sites`: what that picture has of liquid; `X_JP`: its probe. Holds the two scenes, which the
 /// simulation goes on to move: measure before its next image. Empty: nothing is drawn of liquid, or

@@ -121,6 +121,47 @@ most = 20.0
   EXPECT_NE(told.find("between 'least' and 'most'"), std::string::npos) << told;
 }
 
+TEST_F(Parameters, AVariantThatIsChosenHasItsUsualValueUnlessOneIsSaid) {
+  const auto skin_of = [](const std::vector<PatientValue>& patient,
+                          const std::vector<std::string>& variants) {
+    auto joint = toml::parse(R"([parameter.swelling]
+title = "swelling"
+modelled = 1.0
+least = 1.0
+most = 6.0
+usual = 3.0
+variant = "swollen"
+acts = [{ key = "body.grow", per = 0.5 }]
+[body]
+file = "body.ply"
+)");
+    Problems problems;
+    static_cast<void>(apply_patient(joint, patient, variants, problems));
+    EXPECT_TRUE(problems.empty());
+    return joint["body"]["grow"].value_or(0.0);
+  };
+  EXPECT_EQ(skin_of({}, {}), 0);
+  EXPECT_EQ(skin_of({}, {"torn"}), 0);
+  EXPECT_EQ(skin_of({}, {"swollen"}), 1);
+  EXPECT_EQ(skin_of({{"swelling", 5}}, {"swollen"}), 2);
+}
+
+TEST_F(Parameters, AUsualValueIsOfAVariantAndWithinWhatTheModelCanTake) {
+  const auto joint = toml::parse(R"([parameter.fat]
+title = "fat"
+modelled = 1.5
+least = 1.0
+most = 20.0
+usual = 30.0
+acts = [{ key = "body.grow", per = 1.0 }]
+)");
+  Problems problems;
+  EXPECT_EQ(read_parameters(joint, problems).size(), 1U);
+  const std::string told = problems.refusal(ErrorCode::invalid, "here").value().to_string();
+  EXPECT_NE(told.find("'usual' must lie"), std::string::npos) << told;
+  EXPECT_NE(told.find("needs 'variant'"), std::string::npos) << told;
+}
+
 TEST_F(Parameters, OfNobodyTheTableOnlyForgetsItsParameters) {
   auto joint = toml::parse(kJoint);
   Problems problems;
