@@ -73,9 +73,8 @@ double volume_of(const std::vector<Injected>& places) {
   return volume;
 }
 
-FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
-                      std::vector<Injected> places, const Liquid& liquid,
-                      const OpenedSpaces& opened, const std::shared_ptr<const DeformedBody>& tissue,
+FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
+                      const Liquid& liquid, const std::shared_ptr<const DeformedBody>& tissue,
                       std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
   shape.liquid.given = volume_of(places);
@@ -84,14 +83,14 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
   if (tissue && !contacts.empty()) stress = FaceStress(tissue, std::move(contacts));
   const double more = before != nullptr && tissue ? before->more : 1;
   for (Injected& place : places) place.more = more;
-  shape.joint =
-      std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress, opened));
+  shape.joint = std::make_shared<const CompiledJoint>(
+      with_injected(opened.joint(), places, liquid, stress, opened));
   if (!tissue) {
     shape.scene = std::make_shared<const Scene>(shape.joint);
     return shape;
   }
   shape.made = more;
-  const double kept = kept_volume(*shape.joint, *joint, *tissue);
+  const double kept = kept_volume(*shape.joint, opened.joint(), *tissue);
   shape.more = 1 / std::max(kLeastKept, kept);
   // What a press drives out is elsewhere in the space.
   if (more >= kNearlyMost / kLeastKept)
@@ -214,11 +213,11 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   begun_.assign(sites.begin(), sites.end());
   if (tissue) remember(tissue->contact());
   begun_under_ = press_of(contacts_);
-  next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, opened = opened_,
-                                          tissue, contacts = contacts_, before = state_.shape,
-                                          places = injected_of(*joint_, spaces_, begun_)] {
-    return make_shape(joint, places, liquid, *opened, tissue, contacts, before.get());
-  });
+  next_ = std::async(std::launch::async,
+                     [opened = opened_, liquid = liquid_, tissue, contacts = contacts_,
+                      before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
+                       return make_shape(*opened, places, liquid, tissue, contacts, before.get());
+                     });
 }
 
 }  // namespace artus

@@ -39,6 +39,16 @@ struct FluidState {
   std::shared_ptr<const FluidShape> before;  ///< with the same vertices; null: it is all `shape`
   double part = 1;                           ///< of the way from `before`
 
+  /// What there is in it.
+  [[nodiscard]] DrawnLiquid liquid() const {
+    if (!shape) return {};
+    if (!before) return shape->liquid;
+    const auto mix = [this](double from, double to) {
+      return (1 - part) * from + part * to;
+    };
+    return {mix(before->liquid.given, shape->liquid.given),
+            mix(before->liquid.left_out, shape->liquid.left_out)};
+  }
   /// Where vertices are at rest, for the skin that a face meets (SoftBody::lift_skin); empty where
   /// nothing was injected.
   [[nodiscard]] SoftBody::RestOf rest_of() const {

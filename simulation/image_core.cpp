@@ -80,7 +80,7 @@ void ImageCore::update_scene(const FrameInput& input, const ImagedBody& body) {
   if (!body.fluid.shape) fluid_.prepare(*body.scene);
   const auto& filled = fluid_.at(body.fluid, body.scene->tissue());
   drawn_ = filled ? filled : body.scene;
-  drawn_liquid_ = body.fluid.shape ? body.fluid.shape->liquid : DrawnLiquid();
+  drawn_liquid_ = body.fluid.liquid();
   if (filled || filled_)
     renderer_->set_filled_scene(drawn_);
   else if (tissue_)

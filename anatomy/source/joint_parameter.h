@@ -22,7 +22,7 @@ struct JointParameter {
   double modelled = 0;  ///< the value that the surfaces have
   double least = 0;     ///< that the model can take
   double most = 0;
-  std::optional<double> usual;  ///< where its variant is chosen and no value is said
+  std::optional<double> usual = std::nullopt;  ///< where its variant is chosen and no value is said
 };
 
 /// The values as "fat=12,bmi=31", in their order; resolve_patient reads it back to the same values.

@@ -263,7 +263,9 @@ double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
   const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
   const BevelFlow bevel_flow = bevel_flow_of(joint, region, fibrous);
   const double width = Walls(joint, region).width(tip, axes.col(2));
-  if (bevel_flow.apart > 0 || !(width > 0)) return std::numeric_limits<double>::infinity();
+  const bool nerve = joint.tissue_of(region).acoustic.kind == TissueKind::nerve;
+  if (fibrous || nerve || bevel_flow.apart > 0 || !(width > 0))
+    return std::numeric_limits<double>::infinity();
   const double side = width / 2 / bevel_flow.full.z();
   return kBall * bevel_flow.full.prod() * side * side * side;
 }

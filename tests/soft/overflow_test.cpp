@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/soft/liquid/overflow.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -108,6 +110,29 @@ TEST_F(Overflow, TearsAFilmThatIsThinnerThanTheLiquidIsThick) {
     return;
   }
   FAIL() << "the bursa lies under fat and deltoid";
+}
+
+TEST_F(Overflow, LeavesOutWhatAThinLayerHasNoRoomFor) {
+  const auto skin = find_region(*joint_, "skin");
+  ASSERT_TRUE(skin);
+  const auto& mesh = joint_->mesh;
+  const auto at = std::find(mesh.regions.begin(), mesh.regions.end(), *skin);
+  ASSERT_NE(at, mesh.regions.end());
+  Vec3 tip = Vec3::Zero();
+  for (const std::uint32_t v : mesh.tetrahedra[static_cast<std::size_t>(at - mesh.regions.begin())])
+    tip += mesh.vertices[v] / 4;
+  const double room = room_at(*joint_, *skin, tip);
+  EXPECT_GT(room, 1e-9);
+  EXPECT_LT(room, 0.3e-6) << "2 mm of skin";
+  const auto drawn = [&](double volume) {
+    return with_overflow(*spaces_, {{"skin", volume, false, tip}})[0].volume;
+  };
+  EXPECT_EQ(drawn(2e-6), room);
+  EXPECT_EQ(drawn(0.5 * room), 0.5 * room);
+  const auto deltoid = find_region(*joint_, "deltoid");
+  ASSERT_TRUE(deltoid);
+  EXPECT_EQ(room_at(*joint_, *deltoid, tip), std::numeric_limits<double>::infinity())
+      << "streaks between fibres spread by themselves";
 }
 
 TEST_F(Overflow, IsThereOnlyOnce) {
