@@ -29,7 +29,7 @@ constexpr double kPressGrowth = 0.1;     // of the force
 constexpr double kPressDistance = 1e-3;  // m of its middle
 constexpr double kPressTurn = 0.04;      // rad
 constexpr double kNewest = 0.25;         // share of the press as it is now in what shapes a space;
-                                         // of all, a press and what it shapes chase each other
+                                         // fitted: followed at once, press and shape go to and fro
 constexpr double kForgotten = 0.05;      // least share of one
 
 /// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
@@ -80,7 +80,10 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
   shape.liquid.given = volume_of(places);
   shape.liquid.left_out = shape.liquid.given - volume_of(with_overflow(opened, places));
   StressAt stress;
-  if (tissue && !contacts.empty()) stress = FaceStress(tissue, std::move(contacts));
+  const bool pressed = std::any_of(contacts.begin(), contacts.end(), [](const PastContact& past) {
+    return !past.contact.pieces.empty();
+  });
+  if (tissue && pressed) stress = FaceStress(tissue, std::move(contacts));
   const double more = before != nullptr && tissue ? before->more : 1;
   for (Injected& place : places) place.more = more;
   shape.joint = std::make_shared<const CompiledJoint>(
