@@ -260,13 +260,17 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
 
 double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
   bool fibrous = false;
-  const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
+  static_cast<void>(axes_at(joint, region, tip, fibrous));
   const BevelFlow bevel_flow = bevel_flow_of(joint, region, fibrous);
-  const double width = Walls(joint, region).width(tip, axes.col(2));
   const bool nerve = joint.tissue_of(region).acoustic.kind == TissueKind::nerve;
-  if (fibrous || nerve || bevel_flow.apart > 0 || !(width > 0))
-    return std::numeric_limits<double>::infinity();
-  const double side = width / 2 / bevel_flow.full.z();
+  double thickness = std::numeric_limits<double>::infinity();
+  if (fibrous || nerve || bevel_flow.apart > 0) return thickness;
+  const Walls walls(joint, region);
+  for (int k = 0; k < 13; ++k) {  // directions to a cube's middles, edges and corners
+    const Vec3 d = Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized();
+    if (const double width = walls.width(tip, d); width > 0) thickness = std::min(thickness, width);
+  }
+  const double side = thickness / 2 / bevel_flow.full.z();
   return kBall * bevel_flow.full.prod() * side * side * side;
 }
 

@@ -77,10 +77,15 @@ TEST_F(Overflow, GivesWhatTearsTheSpaceToSoftTissueBesideIt) {
   ASSERT_EQ(places.size(), 2U);
   EXPECT_NEAR(places[0].volume, room, 1e-15);
   EXPECT_FALSE(places[1].cavity);
-  EXPECT_NEAR(places[1].volume, 0.4e-6, 1e-15);
-  EXPECT_NEAR(torn(most + 5e-6)[1].volume, 1e-6, 1e-15);  // the rest is not drawn
   const auto beside = find_region(*joint_, places[1].region);
   ASSERT_TRUE(beside);
+  const auto spread = [&](const Injected& place, double volume) {
+    return std::min(volume, room_at(*joint_, *find_region(*joint_, place.region), place.tip));
+  };
+  EXPECT_NEAR(places[1].volume, spread(places[1], 0.4e-6), 1e-15);
+  EXPECT_GT(places[1].volume, 1e-9);
+  const Injected far = torn(most + 5e-6)[1];
+  EXPECT_NEAR(far.volume, spread(far, 1e-6), 1e-15);  // the rest is not drawn
   EXPECT_FALSE(joint_->tissue_of(*beside).haptic.hard);
   const CompiledJoint with = with_injected(*joint_, places, Liquid{}, {}, *spaces_);
   EXPECT_TRUE(find_region(with, "injected").has_value());
