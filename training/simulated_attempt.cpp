@@ -159,11 +159,13 @@ class NeedleAttempt final : public SimulatedAttempt {
     seen.offset = sight.offset;
     // A target without a structure is a place in space, which no tissue carries along.
     const auto& tissue = session_.simulation().scene()->tissue();
-    if (tissue && is_structure_) seen.moved = tissue->displacement(target_point_);
+    if (tissue && is_structure_) {
+      seen.moved = tissue->displacement(target_point_);
+      seen.tents = out.feedback.contact == static_cast<std::uint32_t>(ContactState::touching) &&
+                   !is_target(out.feedback.region);
+    }
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
-    seen.tents = out.feedback.contact == static_cast<std::uint32_t>(ContactState::touching) &&
-                 is_structure_ && !is_target(out.feedback.region);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
     seen.astray = out.feedback.plunger.given > kSeenVolume && !fills_target(out);
     person_.look(t, X_JN, seen);
