@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
+constexpr double kLeastRoom = 0.05e-6;   // m^3 that any tissue has room for; assumed
 constexpr double kMinPressure = 500;     // Pa of a space's liquid: what lies on it; assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
 
@@ -271,7 +272,7 @@ double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
     if (const double width = walls.width(tip, d); width > 0) thickness = std::min(thickness, width);
   }
   const double side = thickness / 2 / bevel_flow.full.z();
-  return kBall * bevel_flow.full.prod() * side * side * side;
+  return std::max(kLeastRoom, kBall * bevel_flow.full.prod() * side * side * side);
 }
 
 CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,

@@ -32,8 +32,8 @@ struct Bolus {
                                               const Vec3& tip, double volume);
 
 /// m^3 that part a tissue without fibres at `tip` until what lies there is as thick as the layer
-/// itself; infinite for nerves and what has fibres, and where the layer is far from the
-/// tip. Cost: linear in the region's interfaces.
+/// itself, and at least 0.05 ml; infinite for nerves and what has fibres, and where the layer is
+/// far from the tip. Cost: linear in the region's interfaces.
 [[nodiscard]] double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip);
 
 /// The joint with the boluses as one more region, "injected", of `liquid`. One after another
