@@ -145,7 +145,7 @@ TEST_F(Overflow, IsThereOnlyOnce) {
   ASSERT_EQ(once.size(), 2U);
   const auto twice = with_overflow(*spaces_, once);
   ASSERT_EQ(once.size(), twice.size());
-  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_DOUBLE_EQ(once[k].volume, twice[k].volume);
+  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_NEAR(once[k].volume, twice[k].volume, 1e-18);
 }
 
 }  // namespace
