@@ -65,6 +65,7 @@ struct BevelFlow {
   int rows = 0;              // of them behind each other along the fibres, to either side
   double ragged = 0;         // of an outline
   double uneven = 0;         // by which lengths and widths differ from a full one's, of it
+  bool lens = false;         // of a tissue without fibres: what it has no room for spreads in it
 };
 
 BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrous) {
@@ -72,7 +73,7 @@ BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrou
   if (kind == TissueKind::muscle) return {Vec3(10e-3, 5e-3, 0.7e-3), 1, 2e-3, 1, 0.2, 0.3};
   if (kind == TissueKind::nerve) return {Vec3(8e-3, 3e-3, 0.5e-3), kLongestSplit, 0, 0};
   if (fibrous) return {Vec3(12e-3, 8e-3, 0.6e-3), kLongestSplit, 1.5e-3, 0, 0.1, 0.2};
-  return {Vec3(4e-3, 4e-3, 1e-3)};
+  return {Vec3(4e-3, 4e-3, 1e-3), 1, 0, 0, 0, 0, true};
 }
 
 /// Unit, in columns: along the fibres, beside them, toward the skin. A region has one axis for all
@@ -263,9 +264,8 @@ double room_at(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
   bool fibrous = false;
   static_cast<void>(axes_at(joint, region, tip, fibrous));
   const BevelFlow bevel_flow = bevel_flow_of(joint, region, fibrous);
-  const bool nerve = joint.tissue_of(region).acoustic.kind == TissueKind::nerve;
   double thickness = std::numeric_limits<double>::infinity();
-  if (fibrous || nerve || bevel_flow.apart > 0) return thickness;
+  if (!bevel_flow.lens) return thickness;
   const Walls walls(joint, region);
   for (int k = 0; k < 13; ++k) {  // directions to a cube's middles, edges and corners
     const Vec3 d = Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized();

@@ -208,25 +208,47 @@ double volume(const Scene& scene, const std::string& name) {
   return six / 6;
 }
 
-TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
-  const auto scene = make_soft_scene();
+SessionParams giving_session() {
   SessionParams params = test::make_small_session();
   params.deform = true;
-  ImageCore core(scene, params);
-  ASSERT_TRUE(core.refusal().empty()) << core.refusal();
-  FrameInput input;
-  input.controls = controls_of(params);
-  input.has_probe = 1;
-  input.sites[0] = site_in(scene->joint(), "bursa", 23e-3, 3e-6);
-  input.n_sites = 1;
-  const auto press = [&](double depth, int images) {
-    Pose X_JP = scene->joint().X_JP_default;
+  return params;
+}
+
+/// A bursa with liquid, `depth` m deep, and a face over it.
+class PressedBursa {
+ public:
+  PressedBursa(const std::shared_ptr<const Scene>& scene, double depth, double volume)
+      : core(scene, giving_session()) {
+    EXPECT_TRUE(core.refusal().empty()) << core.refusal();
+    input_.controls = controls_of(giving_session());
+    input_.has_probe = 1;
+    input_.sites[0] = site_in(scene->joint(), "bursa", depth, volume);
+    input_.n_sites = 1;
+  }
+  /// The next images with the face `depth` m below where it touches.
+  void press(double depth, int images) {
+    X_JP = core.scene()->joint().X_JP_default;
     X_JP.translation() += depth * X_JP.linear().col(2);
-    input.X_JP = to_plain(X_JP);
+    input_.X_JP = to_plain(X_JP);
     for (int k = 0; k < images; ++k) {
-      ++input.number;
-      static_cast<void>(core.render(input));
+      ++input_.number;
+      static_cast<void>(core.render(input_));
     }
+  }
+
+  ImageCore core;
+  Pose X_JP = Pose::Identity();
+
+ private:
+  FrameInput input_;
+};
+
+TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
+  const auto scene = make_soft_scene();
+  PressedBursa bursa(scene, 23e-3, 3e-6);
+  const ImageCore& core = bursa.core;
+  const auto press = [&](double depth, int images) {
+    bursa.press(depth, images);
     return thickness(*core.drawn_scene(), "bursa");
   };
   const double open = press(-5e-3, 20);
@@ -248,24 +270,13 @@ TEST(FluidCore, AFaceThatIsHeldAndTheLiquidBelowItComeToRest) {
       {{"skin", 1.5e-3}, {"fat", 1.5e-3}, {"bursa", 1e-3}, {"tendon", 3e-3}, {"bone", 20e-3}}};
   const auto scene = std::make_shared<const Scene>(
       std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 3e-3)));
-  SessionParams params = test::make_small_session();
-  params.deform = true;
-  ImageCore core(scene, params);
-  ASSERT_TRUE(core.refusal().empty()) << core.refusal();
-  FrameInput input;
-  input.controls = controls_of(params);
-  input.has_probe = 1;
-  input.sites[0] = site_in(scene->joint(), "bursa", 3.5e-3, 1e-6);
-  input.n_sites = 1;
-  Pose X_JP = scene->joint().X_JP_default;
-  X_JP.translation() += 0.3e-3 * X_JP.linear().col(2);
-  input.X_JP = to_plain(X_JP);
+  PressedBursa bursa(scene, 3.5e-3, 1e-6);
+  bursa.press(0.3e-3, 250);
   double least = 1e3;
   double most = 0;
-  for (input.number = 1; input.number <= 400; ++input.number) {
-    static_cast<void>(core.render(input));
-    if (input.number <= 250) continue;
-    const double force = force_at_rest(core.packet()->probe, X_JP).force;
+  for (int k = 0; k < 150; ++k) {
+    bursa.press(0.3e-3, 1);
+    const double force = force_at_rest(bursa.core.packet()->probe, bursa.X_JP).force;
     least = std::min(least, force);
     most = std::max(most, force);
   }
