@@ -25,6 +25,7 @@ constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere
 constexpr double kNoticed = 0.3e-3;    // m off where it came to rest, which is seen; assumed
 constexpr double kKeepSpeed = 2e-3;    // m/s at most meanwhile; assumed
 constexpr int kMaxNudges = 4;          // assumed
+constexpr double kEase = 0.5;          // s without the thumb while the needle is moved; assumed
 constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
@@ -173,20 +174,22 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
 }
 
 /// The needle rests until all is given, where it came to be in the tissue: that comes onto a needle
-/// at rest, as the picture shows. When the line does not split, it is moved a little toward where
-/// it should be.
+/// at rest, as the picture shows. When the line does not split, or pushes back, it is moved a little
+/// toward where it should be; a thumb that feels resistance lets go meanwhile.
 void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& glance, bool seen) {
   const double to_target = (plan_.target + glance.moved - X_JN.translation()).dot(direction_);
   if (!rested_) rested_ = to_target;
   const double off = to_target - *rested_;
   if (seen && std::abs(off) > kNoticed)
     phase_distance_ += std::clamp(off, -kKeepSpeed * kGlance, kKeepSpeed * kGlance);
-  if (time - phase_time_ < kHold) return;
+  const bool resists = glance.resists && !eases(time);
+  if (time - phase_time_ < kHold && !resists) return;
   if (glance.given) {
     begin(Phase::withdraw, time);
-  } else if (glance.astray && nudges_ < kMaxNudges) {
+  } else if ((glance.astray || resists) && nudges_ < kMaxNudges) {
     ++nudges_;
-    if (draw() >= skill_.look) return;
+    if (draw() >= (resists ? skill_.feel : skill_.look)) return;
+    if (resists) eases_until_ = time + kEase;
     if (glance.tents) {
       feels_tent_ = true;
       begin(Phase::advance, time);

@@ -28,7 +28,8 @@ struct OperatorSkill {
   double aspirate = 2.5;        ///< s that the thumb draws back before it gives
   double know = 0.95;           ///< chance of knowing a structure by its look when it comes in view
   double look = 0.95;           ///< chance of noticing that what is given runs elsewhere
-  double feel = 1;              ///< chance of noticing that the target's wall has not given way
+  double feel = 1;              ///< chance of noticing a wall that has not given way, and that the
+                                ///< thumb meets more than its liquid
   double tremor_rms = 20e-6;    ///< m an axis
 };
 [[nodiscard]] OperatorSkill expert_skill();
@@ -54,6 +55,7 @@ struct ScanGlance {
                               ///< there
   bool stuck = false;         ///< something hard is felt
   bool tents = false;         ///< the tip pushes a wall before it that has not given way
+  bool resists = false;       ///< the tissue takes what the thumb gives only by force
   bool astray = false;        ///< enough is given to be seen, and it does not run into the target
   bool given = true;          ///< all is given that was to be, or nothing was
 };
@@ -73,6 +75,8 @@ class ScanningOperator {
   [[nodiscard]] Pose probe(double t) const noexcept;
   /// The needle is where the hands mean it to be: they rest and inject.
   [[nodiscard]] bool holds() const noexcept { return phase_ == Phase::hold; }
+  /// Meanwhile the thumb has let go at `t`, since too much pushed back.
+  [[nodiscard]] bool eases(double t) const noexcept { return holds() && t < eases_until_; }
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::done; }
 
  private:
@@ -104,6 +108,7 @@ class ScanningOperator {
   std::optional<double> rested_;    // m along the line to the target, where the needle came to rest
   std::optional<bool> feels_tent_;  // that the target's wall has not given way; none: not yet met
   int nudges_ = 0;                  // that were made while injecting
+  double eases_until_ = 0;          // s
   double bold_until_ = 0;           // m, depth to which the hand goes on unseen
   double plane_ = 0;                // m, of the probe beside its plan
   double plane_turn_ = 0;           // rad

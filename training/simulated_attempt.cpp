@@ -20,6 +20,7 @@ namespace {
 constexpr double kRate = 1000;          // Hz
 constexpr std::uint64_t kGlances = 50;  // ticks from one to the next
 constexpr double kPhysics = 4000;       // Hz
+constexpr double kResists = 50e3;       // Pa around the bevel that a thumb feels; assumed
 constexpr double kSeenVolume = 0.3e-6;  // m^3 that split a line visibly; assumed
 
 HandParams hand_of(const OperatorSkill& skill, std::uint64_t seed) {
@@ -139,7 +140,7 @@ class NeedleAttempt final : public SimulatedAttempt {
   bool step(AttemptMeter& meter) override {
     const double t = hands_.needle().time();
     hands_.hold_probe(person_.probe(t));
-    const OperatorPhase* pressing = thumb_.step(person_.holds(), 1 / kRate);
+    const OperatorPhase* pressing = thumb_.step(person_.holds() && !person_.eases(t), 1 / kRate);
     const HapticSnapshot& out = session_.step(hands_.read(pressing), meter);
     hands_.feel(out.feedback);
     if (session_.glances()) glance(t, out);
@@ -167,6 +168,7 @@ class NeedleAttempt final : public SimulatedAttempt {
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
+    seen.resists = out.feedback.plunger.tip_pressure > kResists;
     seen.astray = out.feedback.plunger.given > kSeenVolume && !fills_target(out);
     person_.look(t, X_JN, seen);
   }

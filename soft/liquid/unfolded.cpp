@@ -21,8 +21,9 @@ constexpr double kLeast = 0.05;     // of its volume at rest, what a tetrahedron
 constexpr double kFlattest = 1e-5;  // compactness of what has no shape to keep
 constexpr double kStiffness = 30;   // of volume against shape; assumed
 constexpr int kRings = 2;           // of tetrahedra around what is wrong that may move
-constexpr int kWidenings = 2;       // by as many rings each
+constexpr int kWidenings = 3;       // by as many rings each
 constexpr int kSweeps = 60;         // at most, of all vertices of a patch
+constexpr int kEvening = 30;        // times, of all vertices of a wider patch
 constexpr int kSettling = 3;        // of them after all are right
 constexpr int kHalvings = 12;       // of a step
 constexpr double kStride = 0.2e-3;  // m that a step is at most
@@ -118,6 +119,21 @@ class Patch {
     pressure_ = across > 0 ? std::clamp(along / across, 0.0, kStrongest) : 0;
   }
 
+  /// Each that may move goes as those around it do: what is twisted is not untwisted a vertex at a
+  /// time.
+  void even_out() {
+    for (int pass = 0; pass < kEvening; ++pass)
+      for (std::size_t i = 0; i < free_.size(); ++i) {
+        Vec3 sum = Vec3::Zero();
+        for (const auto& [e, k] : around_[i])
+          for (const std::uint32_t v : elements_[e].v) sum += moved_[v] - rest_.vertices[v];
+        if (!around_[i].empty())
+          moved_[free_[i]] =
+              rest_.vertices[free_[i]] + sum / (4.0 * static_cast<double>(around_[i].size()));
+      }
+    soft_ = std::hypot(kSofter * std::min(least(), 0.0), kSoft);
+  }
+
   /// Until all are right, and some sweeps more. False: some are still turned over.
   [[nodiscard]] bool settle() {
     int settled = 0;
@@ -132,9 +148,6 @@ class Patch {
       whole = worst > 0 && std::abs(off) < kSame * wanted_;
       settled = whole && worst > kLeast ? settled + 1 : 0;
       soften(worst, before, energy());
-      if (getenv("UNF2"))
-        std::printf("%d worst %.3f off %.4f p %.2f soft %.2g\n", k, worst, off / wanted_, pressure_,
-                    soft_);
     }
     return whole;
   }
@@ -397,6 +410,7 @@ bool unfold(const TetMesh& rest, const Unfolding& unfolding, std::vector<Vec3>& 
     for (int ring = 0; ring < kRings; ++ring) around.widen();
     Patch patch(rest, unfolding.walls, volume, moved);
     around.hand_to(patch, unfolding.held);
+    if (widening == kWidenings - 1) patch.even_out();
     if (!patch.settle()) continue;
     take_along(rest, before, moved);
     push_out(unfolding.finer, unfolding.held, drawn, moved);

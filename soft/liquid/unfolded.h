@@ -24,7 +24,7 @@ struct Unfolding {
 /// it bends over, or that lies across the rim of what is torn open. Vertices of no tetrahedron go
 /// with the one that they lie in. False: some could not be put right, and nothing has moved.
 /// Requires: as many vertices in both. Cost: linear in tetrahedra where there is nothing to do,
-/// else some 10 us for each vertex beside, for each of 10 to 120 sweeps.
+/// else some 10 us for each vertex beside, for each of 10 to 180 sweeps.
 /// Source: [Garanzha2021], an energy that is finite for what is turned over, and hardens.
 bool unfold(const TetMesh& rest, const Unfolding& unfolding, std::vector<Vec3>& moved);
 

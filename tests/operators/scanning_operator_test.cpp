@@ -23,7 +23,7 @@ class Giving : public testing::Test {
     return plan;
   }
   /// Glances until `until` s, the needle where the hand wants it.
-  void go(double until, bool given, bool astray, bool tents = false) {
+  void go(double until, bool given, bool astray, bool tents = false, bool resists = false) {
     for (; time_ < until; time_ += 0.05) {
       const Pose X_JN = hands_.intention(time_).X_JN;
       ScanGlance glance;
@@ -32,6 +32,7 @@ class Giving : public testing::Test {
       glance.given = given;
       glance.astray = astray;
       glance.tents = tents;
+      glance.resists = resists;
       hands_.look(time_, X_JN, glance);
     }
   }
@@ -82,6 +83,27 @@ TEST_F(Giving, WhatGivesIsNoReasonToGoOn) {
   go(7, false, false);
   EXPECT_TRUE(hands_.holds());
   EXPECT_NEAR(depth(), there, 1e-3);
+}
+
+TEST_F(Giving, AThumbThatMeetsResistanceLetsGoWhileTheNeedleIsMoved) {
+  go(20, false, false);
+  ASSERT_TRUE(hands_.holds());
+  EXPECT_FALSE(hands_.eases(time_));
+  const double before = depth();
+  go(20.1, false, false, false, true);
+  EXPECT_TRUE(hands_.eases(time_));
+  EXPECT_TRUE(hands_.holds());
+  EXPECT_GT(std::abs(depth() - before), 0.5e-3);
+  go(21, false, false);
+  EXPECT_FALSE(hands_.eases(time_));
+}
+
+TEST_F(Giving, AThumbThatMeetsResistanceTriesElsewhereAFewTimes) {
+  go(20, false, false, false, true);
+  const double settled = depth();
+  EXPECT_FALSE(hands_.eases(time_));
+  go(60, false, false, false, true);
+  EXPECT_DOUBLE_EQ(depth(), settled);
 }
 
 TEST_F(Giving, TimeEndsIt) {

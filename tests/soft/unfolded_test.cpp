@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -149,6 +150,21 @@ TEST_F(Unfolded, MovesNothingThatIsHeldOrFarAway) {
   EXPECT_EQ(moved_[at(3, 2, 2)], before[at(3, 2, 2)]);
   EXPECT_EQ(moved_[at(kSide, kSide, kSide)], before[at(kSide, kSide, kSide)]);
   EXPECT_NE(moved_[at(2, 2, 2)], before[at(2, 2, 2)]);
+}
+
+TEST_F(Unfolded, Untwists) {
+  // Half a turn of some tissue.
+  const Eigen::AngleAxisd turn(std::numbers::pi, Vec3::UnitZ());
+  const Vec3 centre = kEdge * Vec3(2, 2, 2);
+  for (int z = 1; z <= 3; ++z)
+    for (int y = 1; y <= 3; ++y)
+      for (int x = 1; x <= 3; ++x) {
+        Vec3& p = moved_[at(x, y, z)];
+        if (x + y + z < 9) p = centre + turn * (p - centre);
+      }
+  ASSERT_LT(least_ratio(mesh_, moved_), 0);
+  EXPECT_TRUE(unfold(mesh_, unfolding_, moved_));
+  EXPECT_GT(least_ratio(mesh_, moved_), 0.05);
 }
 
 TEST_F(Unfolded, LeavesWhatCannotBePutRight) {
