@@ -174,8 +174,8 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
 }
 
 /// The needle rests until all is given, where it came to be in the tissue: that comes onto a needle
-/// at rest, as the picture shows. When the line does not split, or pushes back, it is moved a little
-/// toward where it should be; a thumb that feels resistance lets go meanwhile.
+/// at rest, as the picture shows. When the line does not split, or pushes back, it is moved a
+/// little toward where it should be; a thumb that feels resistance lets go meanwhile.
 void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& glance, bool seen) {
   const double to_target = (plan_.target + glance.moved - X_JN.translation()).dot(direction_);
   if (!rested_) rested_ = to_target;
