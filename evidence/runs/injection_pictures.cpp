@@ -379,7 +379,6 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
                                                    const std::filesystem::path& folder) {
   InjectionPictures out;
   const auto [X_JP, deep] = view_of(*scene, run, options);
-  std::vector<std::string> names{"injected"};
   InjectionPlume plume(*scene, run, deep.needle.bore);
   std::vector<Injected> last;
   std::shared_ptr<const Scene> body = scene;
@@ -396,12 +395,9 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   const std::vector<Injected> given = last;
   last = with_overflow(spaces, std::move(last));
   tell_overflow(given, last, out.overflow);
-  for (const Injected& place : last) {
-    out.drawn_volume += place.volume;
-    if (place.cavity)
-      for (const RegionId region : spaces.of(scene->region_at(place.tip)).regions())
-        names.push_back(scene->joint().regions[region].name);
-  }
+  out.at_rest = question_of(scene, body, last, X_JP, deep);
+  out.drawn_volume = out.at_rest.liquid.volume;
+  const std::vector<std::string>& names = out.at_rest.liquid.regions;
   out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);
   const Vec3& tip = run.X_JN.translation();
   out.label_volume =
@@ -409,7 +405,6 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(spaces, last, out);
-  out.at_rest = question_of(scene, body, last, X_JP, deep);
   return out;
 }
 
