@@ -81,11 +81,10 @@ constexpr const char* kTraceHead =
     "plunger_status,probe_force_x_n,probe_force_y_n,probe_force_z_n,probe_torque_x_nm,"
     "probe_torque_y_nm,probe_torque_z_nm,probe_share,probe_status,tissue_age_ms\n";
 
-/// Measures the body that the last picture shows, and draws it with liquid and without.
-void examine(const Simulation& simulation, const FrameInput& shown,
-             const std::filesystem::path& folder, std::optional<BodyHealth>& health) {
-  const auto question =
-      find_health_question(simulation, {shown.sites, shown.n_sites}, to_pose(shown.X_JP));
+/// Measures the body of the last image, and draws it with liquid and without.
+void examine(Simulation& simulation, const FrameInput& shown, const std::filesystem::path& folder,
+             std::optional<BodyHealth>& health) {
+  const auto question = find_health_question(simulation, shown);
   if (!question) return;
   health = measure_body_health(*question);
   if (const auto written = write_body_pictures(*question, folder, "body"); !written)
@@ -97,7 +96,7 @@ ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& 
                              std::FILE* trace, double period, std::optional<BodyHealth>& health) {
   ReplayListener listener;
   if (!options.body.empty())
-    listener.on_end = [&health, folder = options.body](const Simulation& simulation,
+    listener.on_end = [&health, folder = options.body](Simulation& simulation,
                                                        const FrameInput& shown) {
       examine(simulation, shown, folder, health);
     };

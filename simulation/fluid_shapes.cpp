@@ -105,6 +105,10 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
 
 }  // namespace
 
+bool FluidShape::misses_volume() const noexcept {
+  return std::abs(more / made - 1) > kMissed;
+}
+
 FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
                          double image_rate, std::shared_ptr<const OpenedSpaces> opened)
     : joint_(std::move(joint)), opened_(std::move(opened)), liquid_(std::move(liquid)) {
@@ -169,11 +173,6 @@ bool FluidShapes::is_at_rest(std::span<const InjectedSite> sites) const {
   return !differ(sites, seen_, kStill) && differ(sites, begun_, kVisible);
 }
 
-/// Whether a press takes so much of the newest shape that another should make up for it.
-bool FluidShapes::misses_volume() const {
-  return state_.shape && std::abs(state_.shape->more / state_.shape->made - 1) > kMissed;
-}
-
 /// Another shape of the same vertices is gone over into; what has others is there at once.
 void FluidShapes::take() {
   std::shared_ptr<const FluidShape> before = std::move(state_.shape);
@@ -208,7 +207,8 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   Press press;
   if (tissue) press = press_of(std::array{PastContact{1, tissue->contact()}});
   const bool changed = is_at_rest(sites) || has_changed(sites, press);
-  const bool wanted = changed || (made_up_ < kMostInARow && misses_volume());
+  const bool wanted =
+      changed || (made_up_ < kMostInARow && state_.shape && state_.shape->misses_volume());
   seen_.assign(sites.begin(), sites.end());
   if (sites.empty() || next_.valid() || !wanted) return;
   made_up_ = changed ? 0 : made_up_ + 1;

@@ -31,6 +31,9 @@ struct FluidShape {
   double made = 1;                     ///< times what was given that its spaces were opened by
   DrawnLiquid liquid;
   double more = 1;  ///< times what was given that its spaces' next shape is opened by: see below
+
+  /// Whether a press takes so much of it that another should make up for it.
+  [[nodiscard]] bool misses_volume() const noexcept;
 };
 
 /// What there is of it in one image: one shape, or one on its way to the next.
@@ -95,7 +98,6 @@ class FluidShapes {
   [[nodiscard]] static Press press_of(std::span<const PastContact> contacts);
   void remember(const ContactForce& contact);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
-  [[nodiscard]] bool misses_volume() const;
   [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
   void take();
 

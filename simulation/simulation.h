@@ -92,6 +92,8 @@ class Simulation {
   /// The picture of the newest image, which is advanced to when it is due. Requires: an image was
   /// due. The frame stays valid until the next call. Cost: an image.
   const Frame& render();
+  /// The input of the newest image that was advanced to.
+  [[nodiscard]] const FrameInput& shown() const noexcept { return shown_; }
   /// Knobs of later images.
   void set_controls(const ImageControls& controls) noexcept { controls_ = controls; }
 

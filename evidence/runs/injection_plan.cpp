@@ -48,12 +48,17 @@ std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Ve
   return std::nullopt;
 }
 
-/// What lies on the bone that the target is in.
+/// What liquid does not part.
+bool is_firm(const Tissue& tissue) {
+  return tissue.haptic.hard || tissue.name == "cartilage" || tissue.name == "labrum";
+}
+
+/// What lies on the bone that the target is in, or on its cartilage.
 RegionId region_on_bone(const Scene& scene, const InjectionSpec& spec) {
   RegionId before = scene.region_at(spec.target);
   for (const TissueInterval& s : tissue_intervals(scene, {spec.entry, spec.target})) {
     if (s.region < kFirstRegion) continue;
-    if (scene.joint().tissue_of(s.region).haptic.hard) break;
+    if (is_firm(scene.joint().tissue_of(s.region))) break;
     before = s.region;
   }
   return before;

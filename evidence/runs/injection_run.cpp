@@ -184,6 +184,7 @@ class Trial {
     target_ = space;
     out_.target = plunger().spaces()[target_].name;
     out_.target_like = plunger().spaces()[target_].like;
+    out_.holds = plunger().spaces()[target_].law.rupture;
   }
 
  private:

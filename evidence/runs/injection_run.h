@@ -81,10 +81,11 @@ struct InjectionRun {
   double depth = 0;                  ///< m of its tip along the line then, as in the rows
   double given = 0;                  ///< m^3 that left the needle
   double drawn = 0;                  ///< m^3 of the patient's own
-  double highest_pressure = 0;       ///< Pa at the tip while it flowed
-  double highest_force = 0;          ///< N on the plunger
-  double tip_walk = 0;               ///< m, range of the tip's depth while it flowed
-  double unbalanced = 0;             ///< m^3, given less what is somewhere
+  double holds = std::numeric_limits<double>::infinity();  ///< m^3 in the target before it leaks
+  double highest_pressure = 0;                             ///< Pa at the tip while it flowed
+  double highest_force = 0;                                ///< N on the plunger
+  double tip_walk = 0;    ///< m, range of the tip's depth while it flowed
+  double unbalanced = 0;  ///< m^3, given less what is somewhere
   std::vector<PatientLine> patient;
   bool reached = false;      ///< the tip came where it was meant to
   bool complete = false;     ///< all that was meant was given

@@ -65,9 +65,6 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   for (const FrameRecord& recorded : recording.frames) {
     const ImagedBody body = simulation.advance(recorded.input);
     ++report.frames;
-    const bool last = &recorded == &recording.frames.back();
-    if (last && listener.on_end && recorded.digest == 0 && !listed)
-      static_cast<void>(simulation.render(recorded.input, body));
     const bool same_packet = !body.packet || digest_of(*body.packet) == recorded.packet;
     if (recorded.digest == 0 && !listed) {
       note(recorded, same_packet, report);

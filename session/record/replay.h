@@ -33,8 +33,8 @@ struct ReplayReport {
 struct ReplayListener {
   std::function<void(const HapticSnapshot&)> on_tick;
   std::function<void(const FrameRecord&, const Frame&)> on_frame;
-  /// After the last image, whose picture it has drawn, with that image's input.
-  std::function<void(const Simulation&, const FrameInput&)> on_end;
+  /// After the last image, with its input.
+  std::function<void(Simulation&, const FrameInput&)> on_end;
 };
 
 /// Whether its pictures are inputs alone, as of a list of poses or a session without pictures.

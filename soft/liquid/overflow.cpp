@@ -14,6 +14,7 @@
 #include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/closest_point.h"
 
 namespace artus {
 namespace {
@@ -49,6 +50,39 @@ RegionId region_at(const TetMesh& mesh, const Vec3& p) {
     if (share.minCoeff() >= 0 && share.sum() <= 1) return mesh.regions[t];
   }
   return kOutside;
+}
+
+/// The nearest point of a region to one beside it, as far inside as it has room.
+std::optional<Vec3> nearest_inside(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
+  const auto& p = joint.mesh.vertices;
+  double nearest = std::numeric_limits<double>::infinity();
+  Vec3 on = tip;
+  Vec3 inward = Vec3::Zero();
+  for (const Interface& f : joint.mesh.interfaces) {
+    if ((f.front == region) == (f.back == region)) continue;
+    const std::array<Vec3, 3> t{p[f.vertices[0]], p[f.vertices[1]], p[f.vertices[2]]};
+    const Vec3 q = closest_point_on_triangle(tip, t);
+    const double away = (q - tip).norm();
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (away >= nearest || !(normal.norm() > 0)) continue;
+    nearest = away;
+    on = q;
+    inward = (f.front == region ? 1 : -1) * normal.normalized();
+  }
+  for (const double depth : {kInto, kInto / 2, kInto / 5, kInto / 20})
+    if (region_at(joint.mesh, on + depth * inward) == region) return on + depth * inward;
+  return std::nullopt;
+}
+
+/// What parts tissue does so in its own region. A wall that the needle tents lies ahead of its tip;
+/// in the body at rest it may be behind it.
+void bring_inside(const CompiledJoint& joint, std::vector<Injected>& places) {
+  for (Injected& place : places) {
+    const auto region = find_region(joint, place.region);
+    if (place.cavity || !region || *region < kFirstRegion || !(place.volume > kDrawn)) continue;
+    if (region_at(joint.mesh, place.tip) == *region) continue;
+    place.tip = nearest_inside(joint, *region, place.tip).value_or(place.tip);
+  }
 }
 
 /// Fat or muscle, which gives way: where it begins nearest to the tip, as far as that is away, and
@@ -193,6 +227,7 @@ void leave_out(const OpenedSpaces& spaces, std::vector<Injected>& places) {
 std::vector<Injected> with_overflow(const OpenedSpaces& spaces, std::vector<Injected> places) {
   const auto laws = make_joint_spaces(spaces.joint());
   if (!laws) return places;
+  bring_inside(spaces.joint(), places);
   for (int round = 0; round < kRounds; ++round) {
     const bool torn = tear_films(spaces, *laws, places);
     const bool spilt = spill(spaces, *laws, places);

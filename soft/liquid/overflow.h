@@ -6,10 +6,11 @@
 
 namespace artus {
 
-/// Where all of the liquid is drawn. What parts tissue beside a cavity, and is so thick that less
-/// than half a millimetre would be left between them, tears that and goes into the cavity. What is
-/// more than a space holds (SpaceLaw::rupture) tears the nearest tissue around it toward the skin
-/// and parts that, drawn to 1 ml; without such tissue it stays. What is more than a layer of fat or
+/// Where all of the liquid is drawn. What parts a region that it is told to lie beside does so at
+/// the region's nearest point. What parts tissue beside a cavity, and is so thick that less than
+/// half a millimetre would be left between them, tears that and goes into the cavity. What is more
+/// than a space holds (SpaceLaw::rupture) tears the nearest tissue around it toward the skin and
+/// parts that, drawn to 1 ml; without such tissue it stays. What is more than a layer of fat or
 /// skin has room for (room_at) spreads in it and is left out. What is less, and yet more than the
 /// body has room for (OpenedSpace::max_volume), is in parts of the space that the body does not
 /// have, as a joint's other recesses or the length of a sheath, and is left out. Places of the same

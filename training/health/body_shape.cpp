@@ -42,11 +42,16 @@ double volume_below_skin(const TetMesh& mesh, const Vec3& centre) {
 }
 
 bool has_same_skin(const TetMesh& a, const TetMesh& b) {
-  return a.interfaces.size() == b.interfaces.size() &&
-         std::equal(a.interfaces.begin(), a.interfaces.end(), b.interfaces.begin(),
-                    [](const Interface& f, const Interface& g) {
-                      return is_skin(f) == is_skin(g) && f.vertices == g.vertices;
-                    });
+  auto g = b.interfaces.begin();
+  const auto next = [&] {
+    return g = std::find_if(g, b.interfaces.end(), is_skin);
+  };
+  for (const Interface& f : a.interfaces) {
+    if (!is_skin(f)) continue;
+    if (next() == b.interfaces.end() || g->vertices != f.vertices) return false;
+    ++g;
+  }
+  return next() == b.interfaces.end();
 }
 
 }  // namespace

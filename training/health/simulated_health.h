@@ -14,14 +14,15 @@ namespace artus {
 /// what parts tissue beside a space tears into it.
 void add_drawn(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid);
 
-/// The body of a simulation's last picture beside the same without liquid, under the same press.
-/// `sites`: what that picture has of liquid; `X_JP`: its probe. Holds the two scenes, which the
-/// simulation goes on to move: measure before its next image. Empty: nothing is drawn of liquid, or
-/// the body is rigid and no picture was made. Cost: none.
-[[nodiscard]] std::optional<HealthQuestion> find_health_question(
-    const Simulation& simulation, std::span<const InjectedSite> sites, const Pose& X_JP);
+/// The body of a simulation whose hands stay as they were in the image `shown`, its newest, until
+/// all that was given is drawn (a shape follows liquid by up to a second), beside the same without
+/// liquid, under the same press. Holds the two scenes, which the simulation goes on to move:
+/// measure before its next image. Empty: nothing is drawn of liquid. Cost: some images' tissue, a
+/// picture.
+[[nodiscard]] std::optional<HealthQuestion> find_health_question(Simulation& simulation,
+                                                                 const FrameInput& shown);
 
-/// The same at the end of a loop: draws the picture of its newest image first. Cost: an image.
+/// The same at the end of a loop. Empty in a rigid body, too.
 [[nodiscard]] std::optional<HealthQuestion> draw_health_question(Simulation& simulation);
 
 }  // namespace artus
