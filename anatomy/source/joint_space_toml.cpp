@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/anatomy/source/joint_space_toml.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
+#include <utility>
 
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space_toml.h"
@@ -32,18 +35,34 @@ void read_likeness(TomlTable& toml, const std::vector<SpaceProfile>& profiles, S
   toml.problem_at("like", "there is no kind of space '" + *like + "'" + did_you_mean(*like, names));
 }
 
-Space read_space(TomlTable& toml, const std::vector<SpaceProfile>& profiles, SpaceNames& names) {
+/// The spaces that have one of its regions, or its name, become part of it.
+void take_in(std::vector<Space>& before, Space& space) {
+  const auto in = [&space](const std::string& region) {
+    return std::find(space.regions.begin(), space.regions.end(), region) != space.regions.end();
+  };
+  for (auto at = before.begin(); at != before.end();) {
+    const bool one =
+        at->name == space.name || std::any_of(at->regions.begin(), at->regions.end(), in);
+    if (one)
+      std::copy_if(at->regions.begin(), at->regions.end(), std::back_inserter(space.regions),
+                   [&](const std::string& region) { return !in(region); });
+    at = one ? before.erase(at) : at + 1;
+  }
+}
+
+Space read_space(TomlTable& toml, const std::vector<SpaceProfile>& profiles, SpaceNames& names,
+                 bool joins) {
   Space space;
   read_likeness(toml, profiles, space);
   space.name = toml.required_text("name");
-  if (!space.name.empty() && !names.spaces.insert(space.name).second)
+  if (!space.name.empty() && !names.spaces.insert(space.name).second && !joins)
     toml.problem_at("name", "is already used");
   space.regions = toml.required_texts("regions");
   for (const std::string& region : space.regions) {
     if (names.regions.count(region) == 0)
       toml.problem_at("regions", "there is no structure '" + region + "'" +
                                      did_you_mean(region, names.regions));
-    else if (!names.taken.insert(region).second)
+    else if (!names.taken.insert(region).second && !joins)
       toml.problem_at("regions", "'" + region + "' is in a space already");
   }
   read_space_law(toml, !toml.has("like"), space.law);
@@ -73,8 +92,13 @@ Result<std::vector<Space>> read_spaces(TomlTable& toml,
   std::vector<Space> spaces;
   for (const auto* table : toml.tables("space")) {
     TomlTable space(*table, "space", toml.problems());
-    spaces.push_back(read_space(space, *profiles, names));
+    const bool joins = space.boolean("joins").value_or(false);
+    Space read = read_space(space, *profiles, names, joins);
+    if (joins) take_in(spaces, read);
+    spaces.push_back(std::move(read));
   }
+  names.spaces.clear();
+  for (const Space& s : spaces) names.spaces.insert(s.name);
   for (const Space& s : spaces)
     if (!s.leaks_to.empty() && names.spaces.count(s.leaks_to) + regions.count(s.leaks_to) == 0)
       toml.problem("space '" + s.name + "' leaks to '" + s.leaks_to + "', which is not a space" +

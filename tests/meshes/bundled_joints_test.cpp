@@ -445,5 +445,23 @@ TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
   }
 }
 
+TEST(BundledJoints, AnyTwoVariantsAndAnyDrawnPatientCanBeRead) {
+  for (const char* name :
+       {"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
+    const std::vector<JointVariant> variants = read_bundled_joint(name).variants;
+    for (const JointVariant& one : variants)
+      for (const JointVariant& other : variants)
+        if (one.name < other.name)
+          static_cast<void>(
+              read_bundled_joint((with_variant(name, one.name) + "+" + other.name).c_str()));
+    if (read_bundled_joint(name).parameters.empty()) continue;
+    for (int seed = 1; seed <= 100; ++seed)
+      for (const std::string& variant : {std::string(), with_variant("", "adhesive_capsulitis")})
+        if (variant.empty() || std::string(name) == "shoulder")
+          static_cast<void>(
+              read_bundled_joint((name + variant + "@seed=" + std::to_string(seed)).c_str()));
+  }
+}
+
 }  // namespace
 }  // namespace artus
