@@ -22,6 +22,7 @@ namespace {
 constexpr int kRounds = 4;        // a full space spills into what may tear the next
 constexpr double kDrawn = 1e-9;   // m^3
 constexpr double kTorn = 1e-6;    // m^3 that are drawn of what tears out; the rest spreads; assumed
+constexpr double kPocket = 1e-3;  // m that tips of one pocket may lie apart; assumed
 constexpr double kInto = 0.5e-3;  // m behind the wall, where it begins to part tissue
 
 /// What parts, next to a space.
@@ -72,6 +73,21 @@ std::optional<Vec3> nearest_inside(const CompiledJoint& joint, RegionId region, 
   for (const double depth : {kInto, kInto / 2, kInto / 5, kInto / 20})
     if (region_at(joint.mesh, on + depth * inward) == region) return on + depth * inward;
   return std::nullopt;
+}
+
+/// What parts two tissues at one place is one pocket, in the one that got more.
+void join_pockets(const CompiledJoint& joint, std::vector<Injected>& places) {
+  const auto parts = [&joint](const Injected& place) {
+    return !place.cavity && find_region(joint, place.region).value_or(kOutside) >= kFirstRegion;
+  };
+  for (Injected& place : places)
+    for (Injected& other : places) {
+      const bool apart = &place == &other || !parts(place) || !parts(other) ||
+                         (place.tip - other.tip).norm() > kPocket;
+      if (apart || place.volume < other.volume) continue;
+      place.volume += other.volume;
+      other.volume = 0;
+    }
 }
 
 /// What parts tissue does so in its own region. A wall that the needle tents lies ahead of its tip;
@@ -227,6 +243,7 @@ void leave_out(const OpenedSpaces& spaces, std::vector<Injected>& places) {
 std::vector<Injected> with_overflow(const OpenedSpaces& spaces, std::vector<Injected> places) {
   const auto laws = make_joint_spaces(spaces.joint());
   if (!laws) return places;
+  join_pockets(spaces.joint(), places);
   bring_inside(spaces.joint(), places);
   for (int round = 0; round < kRounds; ++round) {
     const bool torn = tear_films(spaces, *laws, places);
