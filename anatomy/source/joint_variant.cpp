@@ -63,17 +63,19 @@ std::vector<JointVariant> read_declared(const toml::table& joint,
   return declared;
 }
 
-/// What a part of the joint says under `variant`: one name or several; empty: it says nothing.
+/// What a part of the joint says under `key`: one variant's name or several; empty: it says
+/// nothing.
 std::optional<std::vector<std::string>> read_condition(const toml::table& part,
+                                                       std::string_view key,
                                                        const std::vector<std::string>& known,
                                                        Problems& problems) {
-  const toml::node* node = part.get("variant");
+  const toml::node* node = part.get(key);
   if (node == nullptr) return std::nullopt;
   std::vector<std::string> names;
   const auto take = [&](const toml::node& one) {
     const auto name = one.value<std::string>();
     if (!name)
-      problems.add(one, "'variant' must be a name or a list of names");
+      problems.add(one, "'" + std::string(key) + "' must be a name or a list of names");
     else if (!is_there(known, *name))
       problems.add(one, "there is no [variant." + *name + "]" + did_you_mean(*name, known));
     names.push_back(name.value_or(""));
@@ -91,15 +93,13 @@ class Filter {
          Problems& problems)
       : known_(known), chosen_(chosen), problems_(problems) {}
 
-  /// Whether a part stays; it forgets its condition.
+  /// Whether a part stays; it forgets its conditions.
   bool keeps(toml::node& node) {
     toml::table* part = node.as_table();
     if (part == nullptr) return true;
-    const auto condition = read_condition(*part, known_, problems_);
-    if (!condition) return true;
-    part->erase("variant");
-    return std::any_of(condition->begin(), condition->end(),
-                       [this](const std::string& name) { return is_there(chosen_, name); });
+    const auto wanted = is_chosen(*part, "variant");
+    const auto barred = is_chosen(*part, "unless");
+    return wanted.value_or(true) && !barred.value_or(false);
   }
 
   void apply(toml::array& parts) {
@@ -111,6 +111,15 @@ class Filter {
   }
 
  private:
+  /// Whether one of the variants that it names under `key` is; empty: it names none.
+  std::optional<bool> is_chosen(toml::table& part, std::string_view key) {
+    const auto names = read_condition(part, key, known_, problems_);
+    if (!names) return std::nullopt;
+    part.erase(key);
+    return std::any_of(names->begin(), names->end(),
+                       [this](const std::string& name) { return is_there(chosen_, name); });
+  }
+
   const std::vector<std::string>& known_;
   const std::vector<std::string>& chosen_;
   Problems& problems_;

@@ -14,6 +14,7 @@
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/soft/cage/tet_locator.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -138,6 +139,47 @@ TEST_F(Overflow, LeavesOutWhatAThinLayerHasNoRoomFor) {
   ASSERT_TRUE(deltoid);
   EXPECT_EQ(room_at(*joint_, *deltoid, tip), std::numeric_limits<double>::infinity())
       << "streaks between fibres spread by themselves";
+}
+
+TEST_F(Overflow, PartsALayerBesideWhichItIsToldToLieAtTheLayersNearestPoint) {
+  const TetLocator locator(joint_->mesh);
+  const auto region_at = [&](const Vec3& p) {
+    const auto t = locator.find(p);
+    return t < 0 ? kOutside : joint_->mesh.regions[static_cast<std::size_t>(t)];
+  };
+  const auto fat = find_region(*joint_, "peribursal_fat");
+  ASSERT_TRUE(fat);
+  const auto& p = joint_->mesh.vertices;
+  int tried = 0;
+  for (const Interface& f : joint_->mesh.interfaces) {
+    const RegionId beside = f.front == *fat ? f.back : f.front;
+    if ((f.front != *fat && f.back != *fat) || joint_->regions[beside].name != "deltoid") continue;
+    const Vec3& a = p[f.vertices[0]];
+    const Vec3 normal = (p[f.vertices[1]] - a).cross(p[f.vertices[2]] - a).normalized();
+    const Vec3 beyond = (a + p[f.vertices[1]] + p[f.vertices[2]]) / 3 +
+                        (f.back == *fat ? 0.7e-3 : -0.7e-3) * normal;
+    if (region_at(beyond) != beside) continue;
+    const Injected place =
+        with_overflow(*spaces_, {{"peribursal_fat", 2e-9, false, beyond}}).front();
+    if (place.cavity) continue;  // so near the bursa that it tears
+    EXPECT_EQ(region_at(place.tip), *fat);
+    EXPECT_LT((place.tip - beyond).norm(), 1.3e-3);
+    if (++tried == 20) return;
+  }
+  FAIL() << "deltoid lies on fat";
+}
+
+TEST_F(Overflow, PartsTwoTissuesAtOnePlaceAsOnePocketOfTheOneThatGotMore) {
+  const Vec3 away = tip_ + Vec3(0, 0, 5e-3);
+  const auto places = with_overflow(*spaces_, {{"deltoid", 0.1e-6, false, tip_},
+                                               {"infraspinatus", 0.3e-6, false, tip_},
+                                               {"joint_fluid", 0.2e-6, true, tip_},
+                                               {"teres_minor", 0.1e-6, false, away}});
+  ASSERT_EQ(places.size(), 4U);
+  EXPECT_EQ(places[0].volume, 0);
+  EXPECT_NEAR(places[1].volume, 0.4e-6, 1e-15);
+  EXPECT_EQ(places[2].volume, 0.2e-6);
+  EXPECT_EQ(places[3].volume, 0.1e-6);
 }
 
 TEST_F(Overflow, IsThereOnlyOnce) {

@@ -26,8 +26,8 @@ void draw_all(Simulation& simulation, FrameInput shown, double given) {
   ImagedBody body;
   const auto follows = [&] {
     const FluidState& fluid = body.fluid;
-    return fluid.shape && (fluid.before || fluid.shape->misses_volume() ||
-                           std::abs(fluid.liquid().given - given) > kAlike * given);
+    return !fluid.shape || fluid.before || fluid.shape->misses_volume() ||
+           std::abs(fluid.liquid().given - given) > kAlike * given;
   };
   auto left = static_cast<int>(kLongest * params.image_rate);
   do {

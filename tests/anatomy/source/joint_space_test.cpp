@@ -35,19 +35,19 @@ TEST(JointSpaces, OneThatJoinsTakesInThoseThatShareARegionOrItsName) {
   const std::string first =
       "[[space]]\nname = \"cavity\"\nregions = [\"recess\"]\nlike = \"joint\"\n";
   const std::string second =
-      "[[space]]\nname = \"whole\"\nregions = [\"body\", \"recess\"]\nlike = \"bursa\"\n";
+      "[[space]]\nname = \"whole\"\nregions = [\"ulna\", \"recess\"]\nlike = \"bursa\"\n";
   EXPECT_THAT(refusal(first + second), HasSubstr("is in a space already"));
   const auto joint = parse_joint(kSpacesElbow + first + second + "joins = true\n", "j");
   ASSERT_TRUE(joint) << joint.error().to_string();
   ASSERT_EQ(joint->spaces.size(), 1U);
   EXPECT_EQ(joint->spaces[0].name, "whole");
-  EXPECT_THAT(joint->spaces[0].regions, testing::UnorderedElementsAre("body", "recess"));
+  EXPECT_THAT(joint->spaces[0].regions, testing::UnorderedElementsAre("ulna", "recess"));
   const auto last = parse_joint(
       kSpacesElbow + first +
-          "[[space]]\nname = \"cavity\"\nregions = [\"body\"]\nlike = \"bursa\"\njoins = true\n",
+          "[[space]]\nname = \"cavity\"\nregions = [\"ulna\"]\nlike = \"bursa\"\njoins = true\n",
       "j");
   ASSERT_TRUE(last) << last.error().to_string();
-  EXPECT_THAT(last->spaces[0].regions, testing::UnorderedElementsAre("body", "recess"));
+  EXPECT_THAT(last->spaces[0].regions, testing::UnorderedElementsAre("ulna", "recess"));
 }
 
 TEST(JointSpaces, AreRefusedWithWhatIsWrongAndWhatThereIs) {

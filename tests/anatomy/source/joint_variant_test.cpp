@@ -86,6 +86,23 @@ TEST(JointVariant, WhatBelongsToAVariantIsThereOnlyWithIt) {
   EXPECT_THAT(chosen_names(both->variants), ElementsAre("effusion", "loose_body"));
 }
 
+TEST(JointVariant, WhatIsThereUnlessAnotherIsChosenGivesWayToIt) {
+  const std::string second =
+      "[[structure]]\nname = \"recess\"\nvariant = \"effusion\"\ntissue = \"bursa\"\n"
+      "file = \"wide.stl\"\n[[injection]]";
+  std::string text = kElbow;
+  text.replace(text.find("[[injection]]"), 13, second);
+  EXPECT_FALSE(parse_joint(text, "elbow+effusion")) << "two of a name";
+  const std::string condition = "variant = [\"effusion\", \"loose_body\"]\n";
+  text.replace(text.find(condition), condition.size(), condition + "unless = \"effusion\"\n");
+  const auto wet = parse_joint(text, "elbow+effusion+loose_body");
+  ASSERT_TRUE(wet) << wet.error().to_string();
+  EXPECT_THAT(names(wet->structures), ElementsAre("ulna", "body_in_joint", "recess"));
+  const auto dry = parse_joint(text, "elbow+loose_body");
+  ASSERT_TRUE(dry) << dry.error().to_string();
+  EXPECT_THAT(names(dry->structures), ElementsAre("ulna", "recess", "body_in_joint"));
+}
+
 TEST(JointVariant, NoWordOfThemIsLeft) {
   auto table = parse_toml(kElbow, "elbow");
   ASSERT_TRUE(table);

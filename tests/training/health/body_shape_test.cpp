@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/health/body_shape.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -128,6 +129,17 @@ TEST(BodyShape, ALiftedSkinIsToldByVolumeAndHeight) {
   const SkinLift down = find_skin_lift(raised(2e-3).mesh, flat, Vec3(0, 0, 5e-3));
   EXPECT_EQ(down.lifted, 0);
   EXPECT_NEAR(down.net, -up.net, 1e-15);
+}
+
+TEST(BodyShape, ASkinIsTheSameWhateverLiquidCutsBelow) {
+  CompiledJoint cut = raised(2e-3);
+  auto& all = cut.mesh.interfaces;
+  const auto inner = std::find_if(all.begin(), all.end(), [](const Interface& f) {
+    return f.front != kOutside && f.back != kOutside;
+  });
+  ASSERT_NE(inner, all.end());
+  all.insert(all.begin(), *inner);
+  EXPECT_NEAR(find_skin_lift(raised(0).mesh, cut.mesh, Vec3(0, 0, 5e-3)).highest, 2e-3, 1e-9);
 }
 
 TEST(BodyShape, ASkinOfOtherTrianglesIsToldByVolumeAlone) {
