@@ -445,23 +445,5 @@ TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
   }
 }
 
-TEST(BundledJoints, AnyTwoVariantsAndAnyDrawnPatientCanBeRead) {
-  for (const std::string name :
-       {"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
-    const JointFile joint = read_bundled_joint(name.c_str());
-    std::vector<std::string> forms{name};
-    for (const JointVariant& one : joint.variants) {
-      forms.push_back(name + "+" + one.name);
-      for (const JointVariant& other : joint.variants)
-        if (one.name < other.name)
-          static_cast<void>(read_bundled_joint((name + "+" + one.name + "+" + other.name).c_str()));
-    }
-    if (joint.parameters.empty()) continue;
-    for (const std::string& form : forms)
-      for (int seed = 1; seed <= 20; ++seed)
-        static_cast<void>(read_bundled_joint((form + "@seed=" + std::to_string(seed)).c_str()));
-  }
-}
-
 }  // namespace
 }  // namespace artus

@@ -182,5 +182,26 @@ TEST(JointVariant, EveryOneOfTheShoulderIsReadAloneAndNamesItsSurfaces) {
   }
 }
 
+TEST(JointVariant, AnyTwoOfABundledJointAndAnyDrawnPatientCanBeRead) {
+  const auto read = [](const std::string& name) {
+    auto joint = read_joint(test::source_dir() / "meshes" / name);
+    EXPECT_TRUE(joint) << joint.error().to_string();
+    return joint ? *joint : JointFile{};
+  };
+  for (const std::string name :
+       {"simple-shoulder", "shoulder", "elbow", "wrist", "hip", "knee", "ankle"}) {
+    const JointFile joint = read(name);
+    std::vector<std::string> forms{name};
+    for (const JointVariant& one : joint.variants) {
+      forms.push_back(name + "+" + one.name);
+      for (const JointVariant& other : joint.variants)
+        if (one.name < other.name) read(name + "+" + one.name + "+" + other.name);
+    }
+    if (joint.parameters.empty()) continue;
+    for (const std::string& form : forms)
+      for (int seed = 1; seed <= 20; ++seed) read(form + "@seed=" + std::to_string(seed));
+  }
+}
+
 }  // namespace
 }  // namespace artus
