@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "artus/detail/evidence/runs/injection_plan.h"
 #include "artus/detail/evidence/runs/injection_run.h"
 #include "artus/detail/evidence/runs/injection_view.h"
 
@@ -20,8 +21,8 @@ constexpr double kFace = 38e-3;        // m, of a linear probe
 
 bool forbidden(const CompiledJoint& joint, RegionId region) {
   const Tissue& tissue = joint.tissue_of(region);
-  return tissue.haptic.hard || tissue.name == "nerve" || tissue.name == "artery" ||
-         tissue.name == "vein" || tissue.name == "cartilage" || tissue.name == "labrum";
+  return is_firm(tissue) || tissue.name == "nerve" || tissue.name == "artery" ||
+         tissue.name == "vein";
 }
 
 /// Where a line from outside comes to `point` along `direction`: the skin; none where the way is

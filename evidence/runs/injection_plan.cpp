@@ -48,11 +48,6 @@ std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Ve
   return std::nullopt;
 }
 
-/// What liquid does not part.
-bool is_firm(const Tissue& tissue) {
-  return tissue.haptic.hard || tissue.name == "cartilage" || tissue.name == "labrum";
-}
-
 /// What lies on the bone that the target is in, or on its cartilage.
 RegionId region_on_bone(const Scene& scene, const InjectionSpec& spec) {
   RegionId before = scene.region_at(spec.target);
@@ -65,6 +60,10 @@ RegionId region_on_bone(const Scene& scene, const InjectionSpec& spec) {
 }
 
 }  // namespace
+
+bool is_firm(const Tissue& tissue) {
+  return tissue.haptic.hard || tissue.name == "cartilage" || tissue.name == "labrum";
+}
 
 Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
   LinePlan plan;

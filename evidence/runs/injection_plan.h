@@ -7,12 +7,15 @@
 
 namespace artus {
 
+/// Whether liquid does not part it: bone, cartilage, labrum.
+[[nodiscard]] bool is_firm(const Tissue& tissue);
+
 /// What lies on the line of an injection.
 struct LinePlan {
   Vec3 direction = Vec3::UnitZ();
   RegionId region = kOutside;  ///< to inject
   bool by_name = false;        ///< or the target's own
-  bool on_bone = false;        ///< or what lies on the bone that the target is in
+  bool on_bone = false;        ///< or what lies on the bone, or its cartilage, of the target
   LineLayer layer;             ///< of it, at rest
   double wanted = 0;           ///< m along the line, the target
   bool solid = false;          ///< nothing goes in: the target as it is

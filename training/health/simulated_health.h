@@ -15,10 +15,10 @@ namespace artus {
 void add_drawn(const CompiledJoint& rest, const CompiledJoint& drawn, GivenLiquid& liquid);
 
 /// The body of a simulation whose hands stay as they were in the image `shown`, its newest, until
-/// all that was given is drawn (a shape follows liquid by up to a second), beside the same without
-/// liquid, under the same press. Holds the two scenes, which the simulation goes on to move:
-/// measure before its next image. Empty: nothing is drawn of liquid. Cost: some images' tissue, a
-/// picture.
+/// all that was given is drawn (4 s at most: shapes follow liquid and press), beside the same
+/// without liquid, under the same press. Holds the two scenes, which the simulation goes on to
+/// move: measure before its next image. Empty: nothing is drawn of liquid. Cost: some images'
+/// tissue, a picture.
 [[nodiscard]] std::optional<HealthQuestion> find_health_question(Simulation& simulation,
                                                                  const FrameInput& shown);
 
