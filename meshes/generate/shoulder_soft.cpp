@@ -11,7 +11,7 @@ namespace artus {
 namespace {
 
 constexpr double kDeltoidBeginsMm = 4.1;  // above the core
-constexpr double kSeptumMm = 0.6;
+constexpr double kSeptumMm = 0.9;
 
 // What deltoid, fat and skin lie around: head, tuberosities and cuff as one smooth bulge that runs
 // out into the shaft. The farther out a layer lies, the softer its hollows (`blend`).
@@ -56,12 +56,12 @@ struct SeptumCourse {
 // `side`: of the deltoid, toward the skin.
 Solid make_septum(const Millimetres& mm, const ShoulderSize& size, const Field& side,
                   const char* name, const SeptumCourse& course) {
-  constexpr double kWide = 24 * std::numbers::pi / 180;  // half of it
+  constexpr double kWide = 22 * std::numbers::pi / 180;  // half of it
   const double angle = course.degrees * std::numbers::pi / 180;
   const Vec3 out(-std::cos(angle), std::sin(angle), 0);
   const Vec3 back(std::sin(angle), std::cos(angle), 0);
   const double middle = mm.length(11);
-  const double tall = mm.length(25);
+  const double tall = mm.length(23);
   const double half = 0.5 * kSeptumMm * 1e-3;
   const double thick = size.deltoid;
   const auto field = [=](const Vec3& p) {
@@ -70,7 +70,8 @@ Solid make_septum(const Millimetres& mm, const ShoulderSize& size, const Field& 
     const double wave = 0.03 * std::sin(7 * v + 3 * u + angle) + 0.02 * std::sin(9 * u - 4 * v);
     const double depth = thick * (0.5 - course.across * u - course.along * v + wave);
     const double off = (-side(p) - depth) / half;
-    return half / 2 * (off * off + u * u + v * v - 1);
+    const double rim = u * u + v * v;
+    return half / 2 * (off * off + rim * rim - 1);
   };
   Vec3 inside = middle * Vec3::UnitZ() + mm.length(20) * out;
   while (field(inside) > -0.3 * half) inside += 0.02e-3 * out;

@@ -136,18 +136,6 @@ std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const Vec3& tip,
   return found;
 }
 
-/// m from a point to a triangle: across it, or to the nearest corner.
-double distance_to(const std::array<Vec3, 3>& t, const Vec3& p) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  bool over = normal.norm() > 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    over = over && (t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) >= 0;
-    nearest = std::min(nearest, (p - t[k]).norm());
-  }
-  return over ? std::abs((p - t[0]).dot(normal.normalized())) : nearest;
-}
-
 /// The cavity that it tears, and where its walls are nearest.
 std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpaces& spaces,
                                     const Vec3& tip, double reach) {
@@ -159,7 +147,7 @@ std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpace
     if (is_cavity(f.front) == is_cavity(f.back)) continue;
     const auto& p = joint.mesh.vertices;
     const std::array<Vec3, 3> t{p[f.vertices[0]], p[f.vertices[1]], p[f.vertices[2]]};
-    const double away = distance_to(t, tip);
+    const double away = (closest_point_on_triangle(tip, t) - tip).norm();
     if (away >= reach) continue;
     reach = away;
     found = Beyond{is_cavity(f.front) ? f.front : f.back, (t[0] + t[1] + t[2]) / 3};

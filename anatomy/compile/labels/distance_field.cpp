@@ -17,6 +17,7 @@ namespace {
 
 using namespace field_blocks;  // NOLINT(google-build-using-namespace): the layout of a block
 
+constexpr int kCubeOfBlocks = 8;      // along an edge: so many blocks are told in or out at once
 constexpr double kClampReach = 1.74;  // spacings; nearer to the band a clamped sample may take part
 
 double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distance) {
@@ -127,6 +128,11 @@ void DistanceField::layout(const FieldSampling& sampling) {
   }
 }
 
+std::size_t DistanceField::block_at(int x, int y, int z) const noexcept {
+  return static_cast<std::size_t>(x + static_cast<std::ptrdiff_t>(blocks_[0]) *
+                                          (y + static_cast<std::ptrdiff_t>(blocks_[1]) * z));
+}
+
 Vec3 DistanceField::block_corner(std::size_t block) const noexcept {
   const auto nx = static_cast<std::size_t>(blocks_[0]);
   const auto ny = static_cast<std::size_t>(blocks_[1]);
@@ -135,19 +141,46 @@ Vec3 DistanceField::block_corner(std::size_t block) const noexcept {
   return origin_ + kCells * spacing_ * index;
 }
 
-void DistanceField::sample(const BlockSource& at_centre, const BlockFiller& fill) {
+// Tells of a cube of blocks which lie wholly in or out; the others stay 0.
+void DistanceField::find_sides(const BlockSource& at_centre, const std::array<int, 3>& first,
+                               int n) {
+  std::array<int, 3> end{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (first[a] >= blocks_[a]) return;
+    end[a] = std::min(first[a] + n, blocks_[a]);
+  }
+  const double edge = n * kCells * spacing_;
+  const Vec3 corner = origin_ + kCells * spacing_ * Vec3(first[0], first[1], first[2]);
+  const double bound = band_ + edge * std::sqrt(3.0) / 2;
+  const double d = at_centre(corner + Vec3::Constant(edge / 2), bound);
+  if (std::abs(d) >= bound) {
+    for (int z = first[2]; z < end[2]; ++z)
+      for (int y = first[1]; y < end[1]; ++y)
+        for (int x = first[0]; x < end[0]; ++x) slots_[block_at(x, y, z)] = d < 0 ? kIn : kOut;
+    return;
+  }
+  if (n == 1) return;
+  const int half = n / 2;
+  for (int k = 0; k < 8; ++k)
+    find_sides(
+        at_centre,
+        {first[0] + half * (k & 1), first[1] + half * (k >> 1 & 1), first[2] + half * (k >> 2)},
+        half);
+}
+
+void DistanceField::sample(const BlockSource& at_centre, int coarsest, const BlockFiller& fill) {
+  std::array<std::size_t, 3> cubes{};
+  for (std::size_t a = 0; a < 3; ++a)
+    cubes[a] = static_cast<std::size_t>((blocks_[a] + coarsest - 1) / coarsest);
   const std::size_t n = static_cast<std::size_t>(blocks_[0]) *
                         static_cast<std::size_t>(blocks_[1]) * static_cast<std::size_t>(blocks_[2]);
-  const double reach = kCells * spacing_ * std::sqrt(3.0) / 2;
-  const Vec3 half = Vec3::Constant(kCells * spacing_ / 2);
-  slots_.assign(n, kOut);
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t block) {
-    const double d = at_centre(block_corner(block) + half, band_ + reach);
-    if (std::abs(d) < band_ + reach) {
-      slots_[block] = 0;
-    } else {
-      slots_[block] = d < 0 ? kIn : kOut;
-    }
+  slots_.assign(n, 0);
+  tbb::parallel_for(std::size_t{0}, cubes[0] * cubes[1] * cubes[2], [&](std::size_t i) {
+    find_sides(at_centre,
+               {coarsest * static_cast<int>(i % cubes[0]),
+                coarsest * static_cast<int>(i / cubes[0] % cubes[1]),
+                coarsest * static_cast<int>(i / (cubes[0] * cubes[1]))},
+               coarsest);
   });
   std::vector<std::size_t> active;
   for (std::size_t block = 0; block < n; ++block) {
@@ -165,8 +198,10 @@ DistanceField DistanceField::compute(const DistanceTree& tree, const FieldSampli
   field.layout(sampling);
   field.sample(
       [&tree](const Vec3& p, double bound) {
-        return signed_by_winding(tree, p, tree.distance(p, bound));
+        const double d = tree.distance(p, bound);
+        return d < bound ? d : signed_by_winding(tree, p, d);  // a side is asked of what is far
       },
+      kCubeOfBlocks,
       [&](const Vec3& corner, float* out) {
         fill_from_tree(tree, field.spacing_, field.band_, corner, out);
       });
@@ -175,7 +210,7 @@ DistanceField DistanceField::compute(const DistanceTree& tree, const FieldSampli
 
 void DistanceField::sample_of(const BlockSource& at_centre,
                               const std::function<double(const Vec3&)>& function) {
-  sample(at_centre, [&](const Vec3& corner, float* out) {
+  sample(at_centre, 1, [&](const Vec3& corner, float* out) {
     for (int i = 0; i < kBlock; ++i) {
       const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
       const double value = function(corner + spacing_ * index);
@@ -269,9 +304,7 @@ int DistanceField::side_of(const Box& box) const noexcept {
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
       for (int x = first[0]; x <= last[0]; ++x) {
-        const std::int32_t slot = slots_[static_cast<std::size_t>(
-            x + static_cast<std::ptrdiff_t>(blocks_[0]) *
-                    (y + static_cast<std::ptrdiff_t>(blocks_[1]) * z))];
+        const std::int32_t slot = slots_[block_at(x, y, z)];
         if (slot >= 0) return 0;
         (slot == kIn ? any_in : any_out) = true;
       }

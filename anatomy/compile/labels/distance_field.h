@@ -108,8 +108,11 @@ class DistanceField {
   [[nodiscard]] double near_value(const Vec3& p) const noexcept;
   [[nodiscard]] bool covers(const Vec3& p) const noexcept;
   void layout(const FieldSampling& sampling);
-  void sample(const BlockSource& at_centre, const BlockFiller& fill);
+  /// `coarsest`: along an edge, the blocks whose side `at_centre` can tell at once.
+  void sample(const BlockSource& at_centre, int coarsest, const BlockFiller& fill);
+  void find_sides(const BlockSource& at_centre, const std::array<int, 3>& first, int n);
   void sample_of(const BlockSource& at_centre, const std::function<double(const Vec3&)>& function);
+  [[nodiscard]] std::size_t block_at(int x, int y, int z) const noexcept;
   [[nodiscard]] Vec3 block_corner(std::size_t block) const noexcept;
 
   Vec3 origin_ = Vec3::Zero();

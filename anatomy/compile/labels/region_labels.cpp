@@ -67,6 +67,7 @@ RegionId RegionLabels::at(const Vec3& p) const {
   bool is_near_film = false;
   for (std::uint32_t k = index.first[b]; k < index.first[b + 1]; ++k) {
     const Layer& layer = layers[index.layers[k]];
+    if (index.filled[b] != 0 && k + 1 == index.first[b + 1]) return layer.region;
     if (layer.field.value(p) < 0) return layer.region;
     is_near_film = is_near_film || layer.partition != 0;
   }
@@ -105,6 +106,7 @@ void RegionLabels::make_index(const Box& box) {
   }
   std::vector<std::vector<std::uint16_t>> candidates(n_blocks);
   index.meshed.assign(n_blocks, 0);
+  index.filled.assign(n_blocks, 0);
   tbb::parallel_for(std::size_t{0}, n_blocks, [&](std::size_t b) {
     const std::size_t nx = static_cast<std::size_t>(index.blocks[0]);
     const std::size_t ny = static_cast<std::size_t>(index.blocks[1]);
@@ -122,7 +124,9 @@ void RegionLabels::make_index(const Box& box) {
       const int side = layers[i].field.side_of({around.lower - film, around.upper + film});
       if (side > 0) continue;
       candidates[b].push_back(static_cast<std::uint16_t>(i));
-      if (side < 0) break;
+      if (side >= 0) continue;
+      index.filled[b] = 1;
+      break;
     }
   });
   index.first.assign(n_blocks + 1, 0);

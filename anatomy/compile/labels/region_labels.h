@@ -26,6 +26,7 @@ struct LayerIndex {
   double edge = 0;  ///< m, of a block; 0: no index
   std::array<int, 3> blocks{0, 0, 0};
   std::vector<std::uint8_t> meshed;  ///< (n_blocks) 1: all of it in body and region of interest
+  std::vector<std::uint8_t> filled;  ///< (n_blocks) 1: the last of its layers holds all of it
   std::vector<std::uint32_t> first;  ///< (n_blocks + 1) into layers
   std::vector<std::uint16_t> layers;
 };
