@@ -56,12 +56,12 @@ struct SeptumCourse {
 // `side`: of the deltoid, toward the skin.
 Solid make_septum(const Millimetres& mm, const ShoulderSize& size, const Field& side,
                   const char* name, const SeptumCourse& course) {
-  constexpr double kWide = 22 * std::numbers::pi / 180;  // half of it
+  constexpr double kWide = 20 * std::numbers::pi / 180;  // half of it
   const double angle = course.degrees * std::numbers::pi / 180;
   const Vec3 out(-std::cos(angle), std::sin(angle), 0);
   const Vec3 back(std::sin(angle), std::cos(angle), 0);
   const double middle = mm.length(11);
-  const double tall = mm.length(23);
+  const double tall = mm.length(22);
   const double half = 0.5 * kSeptumMm * 1e-3;
   const double thick = size.deltoid;
   const auto field = [=](const Vec3& p) {
