@@ -53,6 +53,18 @@ RegionId region_at(const TetMesh& mesh, const Vec3& p) {
   return kOutside;
 }
 
+/// Of a region's tetrahedra the nearest one's middle.
+std::optional<Vec3> nearest_middle(const TetMesh& mesh, RegionId region, const Vec3& p) {
+  std::optional<Vec3> nearest;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (mesh.regions[t] != region) continue;
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : mesh.tetrahedra[t]) middle += mesh.vertices[v] / 4;
+    if (!nearest || (middle - p).squaredNorm() < (*nearest - p).squaredNorm()) nearest = middle;
+  }
+  return nearest;
+}
+
 /// The nearest point of a region to one beside it, as far inside as it has room.
 std::optional<Vec3> nearest_inside(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
   const auto& p = joint.mesh.vertices;
@@ -72,7 +84,7 @@ std::optional<Vec3> nearest_inside(const CompiledJoint& joint, RegionId region, 
   }
   for (const double depth : {kInto, kInto / 2, kInto / 5, kInto / 20})
     if (region_at(joint.mesh, on + depth * inward) == region) return on + depth * inward;
-  return std::nullopt;
+  return nearest_middle(joint.mesh, region, tip);  // of a rim that is thinner still
 }
 
 /// What parts two tissues at one place is one pocket, in the one that got more.

@@ -36,6 +36,11 @@ std::size_t interface_vertices(const TetMesh& mesh) {
   return n;
 }
 
+/// Where a point hangs; one that liquid lifted off the body, as the skin below it.
+CagePlace place_in(const SoftModel& model, const Vec3& p_C) noexcept {
+  return model.cage().locate(model.skin().below(p_C).p_C, kReach);
+}
+
 /// How far a cube's nodes may move before its vertices do: pictures are of the plane y = 0.
 double tolerance_of(const Cage& cage, const CageCell& cell, bool coarsest) noexcept {
   const double low = cage.low_corner(cell).y();
@@ -99,7 +104,7 @@ std::shared_ptr<const BodyMap> map_in_groups(const TetMesh& mesh, const MappedJo
     for (std::size_t k = 0; k < group.vertices.size(); ++k) {
       const std::uint32_t v = group.vertices[k];
       if (mesh.vertices[v] == before[v]) continue;
-      const CagePlace place = cage.locate(X_CJ * mesh.vertices[v], kReach);
+      const CagePlace place = place_in(*map->model, X_CJ * mesh.vertices[v]);
       if (place.cell < 0) return nullptr;
       group.rest[k] = mesh.vertices[v];
       group.places[k] = map->model->layers().place(cage, place);
@@ -142,8 +147,7 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
   using Key = std::array<std::int32_t, 4>;  // a group's place, and its tolerance in nm
   std::map<Key, VertexGroup> groups;
   for (std::uint32_t v = 0; v < used.size(); ++v) {
-    const CagePlace place =
-        used[v] ? cage.locate(X_CJ * joint.mesh.vertices[v], kReach) : CagePlace{};
+    const CagePlace place = used[v] ? place_in(*model, X_CJ * joint.mesh.vertices[v]) : CagePlace{};
     if (place.cell < 0) continue;
     const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
     const double tolerance = tolerance_of(cage, cell, least < largest && cell.span == largest);
@@ -267,18 +271,26 @@ CompiledJoint DeformedBody::moved_joint() const {
 
 DeformedBody::PlacedMotion DeformedBody::motion_in_cage(const Vec3& p_C) const noexcept {
   const Cage& cage = map_->model->cage();
-  std::int32_t number = cage.cell_around(p_C);
-  if (number < 0) number = cage.locate(p_C, kReach).cell;
+  const SkinHeight::Below there = map_->model->skin().below(p_C);
+  std::int32_t number = cage.cell_around(there.p_C);
+  if (number < 0) number = cage.locate(there.p_C, kReach).cell;
   if (number < 0) return {};
   const CageCell& cell = cage.cells()[static_cast<std::size_t>(number)];
   const double edge = cage.edge(cell);
-  const Vec3 s = ((p_C - cage.low_corner(cell)) / edge).cwiseMax(0).cwiseMin(1);
+  const Vec3 s = ((there.p_C - cage.low_corner(cell)) / edge).cwiseMax(0).cwiseMin(1);
   LayerMap::Around four;
   PlacedMotion placed{map_->model->layers().around(number, s, four)
                           ? between_columns(four, s.z(), edge)
                           : interpolate(s, cell, edge, u_),
                       number};
-  placed.motion.gradient.diagonal().array() += 1;
+  Eigen::Matrix3d& gradient = placed.motion.gradient;
+  if (there.lowered) {
+    gradient.col(0) += there.slope[0] * gradient.col(2);
+    gradient.col(1) += there.slope[1] * gradient.col(2);
+    gradient.col(2).setZero();
+    placed.cell = -1;
+  }
+  gradient.diagonal().array() += 1;
   return placed;
 }
 
@@ -380,7 +392,7 @@ DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const
 
 Eigen::Matrix3d DeformedBody::gradient(const Vec3& p_rest) const noexcept {
   const SoftModel& model = *map_->model;
-  const CagePlace place = model.cage().locate(X_CJ_ * p_rest, kReach);
+  const CagePlace place = place_in(model, X_CJ_ * p_rest);
   if (place.cell < 0) return Eigen::Matrix3d::Identity();
   const CageCell& cell = model.cage().cells()[static_cast<std::size_t>(place.cell)];
   CellVector v;

@@ -49,6 +49,7 @@ void SoftModel::average_materials(const MaterialField& field, int samples) {
     materials_.push_back(average_cell(field, mixtures.back()));
   }
   layers_ = LayerMap(cage_, field, mixtures);
+  skin_ = SkinHeight(cage_, field);
   packs_.resize((materials_.size() + kLanes - 1) / kLanes);
   for (std::size_t c = 0; c < materials_.size(); ++c)
     packs_[c / kLanes].set(c % kLanes, materials_[c], cage_.edge(cage_.cells()[c]));

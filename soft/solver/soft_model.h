@@ -11,6 +11,7 @@
 #include "artus/detail/soft/cage/kernels.h"
 #include "artus/detail/soft/cage/layer_map.h"
 #include "artus/detail/soft/cage/material.h"
+#include "artus/detail/soft/cage/skin_height.h"
 #include "artus/detail/soft/solver/cholesky.h"
 
 namespace artus {
@@ -58,6 +59,8 @@ class SoftModel {
   [[nodiscard]] std::span<const CellMaterial> materials() const noexcept { return materials_; }
   /// What the cubes hold inside, for DeformedBody.
   [[nodiscard]] const LayerMap& layers() const noexcept { return layers_; }
+  /// Where the body begins, for what liquid lifts off it.
+  [[nodiscard]] const SkinHeight& skin() const noexcept { return skin_; }
   [[nodiscard]] std::size_t n_unknowns() const noexcept { return unknown_nodes_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> unknown_nodes() const noexcept {
     return unknown_nodes_;
@@ -102,6 +105,7 @@ class SoftModel {
   std::vector<CellMaterial> materials_;  // (n_cells)
   std::vector<CellPack> packs_;          // the same, four cubes each
   LayerMap layers_;
+  SkinHeight skin_;
   std::vector<HeldNode> held_;                // (n_nodes)
   std::vector<std::uint32_t> unknown_of_;     // (n_nodes)
   std::vector<std::uint32_t> unknown_nodes_;  // (n_unknowns)

@@ -77,6 +77,21 @@ double thickness(const DeformedBody& body, double from, double to, double x = 1e
   return at(to) - at(from);
 }
 
+TEST(DeformedBody, MovesWhatLiquidLiftedOffTheBodyAsTheSkinBelow) {
+  const Layered block = block_with(film());
+  const auto body =
+      block.moved([](const Vec3& p) { return Vec3(0.1 * p.x(), 0, 0.5 * (48e-3 - p.z())); });
+  const Vec3 skin = body->motion(Vec3(4e-3, 2e-3, -1e-3)).displacement;
+  EXPECT_GT(skin.z(), 20e-3);
+  for (const double up : {3e-3, 9e-3, 25e-3}) {
+    const DeformedBody::Motion lifted = body->motion(Vec3(4e-3, 2e-3, -up));
+    EXPECT_LT((lifted.displacement - skin).norm(), 1e-9) << up;
+    EXPECT_LT((lifted.gradient.col(2) - Vec3::UnitZ()).norm(), 1e-9) << up;
+    const Vec3 now = Vec3(4e-3, 2e-3, -up) + lifted.displacement;
+    EXPECT_LT((body->to_rest(now, Vec3::Zero()).p_rest - Vec3(4e-3, 2e-3, -up)).norm(), 1e-6) << up;
+  }
+}
+
 TEST(LayerMap, FluidThatDrainsTakesTheStrainByItsCompliance) {
   const Layered block = block_with(film());
   const double solid =
