@@ -23,7 +23,7 @@ class SkinHeight {
     std::array<double, 2> slope{};  ///< dz/dx, dz/dy where it did
   };
   /// The point itself, or one 1 mm above the skin below it; the point itself where there is none.
-  /// Continuous. Cost: some 10 ns.
+  /// Continuous over the skin. Cost: some 10 ns.
   [[nodiscard]] Below below(const Vec3& p_C) const noexcept;
 
  private:
