@@ -324,25 +324,34 @@ std::vector<Vec3> OpenedSpace::vertices(const TetMesh& mesh, const Filling& fill
   const Flow flow = flow_in(mesh, places, filling);
   std::vector<Vec3> moved = mesh.vertices;
   if (!(flow.length_ > 0)) return moved;
+  std::vector<bool> held =
+      held_in(mesh);  // exactly: a vertex on the face of a cube that moves, too
   for (std::size_t i = 0; i < moved.size(); ++i)
-    if (places[i].copy >= 0) moved[i] = flow.forth(places[i]).p;
-  put_right(mesh, moved);
+    if (places[i].copy >= 0 && !held[i]) moved[i] = flow.forth(places[i]).p;
+  put_right(mesh, std::move(held), moved);
   fill_inside(mesh, moved);
   return moved;
 }
 
-/// What the flow turns over.
-void OpenedSpace::put_right(const TetMesh& mesh, std::vector<Vec3>& moved) const {
-  Unfolding unfolding;
-  unfolding.held.assign(moved.size(), false);
+/// Vertices of bone.
+std::vector<bool> OpenedSpace::held_in(const TetMesh& mesh) const {
+  std::vector<bool> held(mesh.vertices.size(), false);
   const auto hold = [&](RegionId region, const auto& vertices) {
     if (region < hard_.size() && hard_[region])
-      for (const std::uint32_t v : vertices) unfolding.held[v] = true;
+      for (const std::uint32_t v : vertices) held[v] = true;
   };
   for (const Interface& f : mesh.interfaces)
     for (const RegionId region : {f.front, f.back}) hold(region, f.vertices);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     hold(mesh.regions[t], mesh.tetrahedra[t]);
+  return held;
+}
+
+/// What the flow turns over.
+void OpenedSpace::put_right(const TetMesh& mesh, std::vector<bool> held,
+                            std::vector<Vec3>& moved) const {
+  Unfolding unfolding;
+  unfolding.held = std::move(held);
   unfolding.loose.assign(hard_.size() + 1, false);  // and what was parted
   unfolding.loose.back() = true;
   for (const RegionId region : regions_) unfolding.loose[region] = true;

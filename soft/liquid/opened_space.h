@@ -103,7 +103,8 @@ class OpenedSpace {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   [[nodiscard]] std::vector<Edge> edges_inside(const TetMesh& mesh) const;
   static void smooth(std::span<const Edge> edges, const TetMesh& mesh, std::vector<Vec3>& moved);
-  void put_right(const TetMesh& mesh, std::vector<Vec3>& moved) const;
+  [[nodiscard]] std::vector<bool> held_in(const TetMesh& mesh) const;
+  void put_right(const TetMesh& mesh, std::vector<bool> held, std::vector<Vec3>& moved) const;
   void fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const;
 
   std::vector<RegionId> regions_;
