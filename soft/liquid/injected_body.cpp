@@ -300,23 +300,6 @@ struct Filled {
   OpenedSpace::Filling filling;
 };
 
-/// m^3 within the walls of a space.
-double held_in(const TetMesh& mesh, const OpenedSpace& space) {
-  const auto is_in = [&](RegionId r) {
-    return std::find(space.regions().begin(), space.regions().end(), r) != space.regions().end();
-  };
-  const Vec3& from = mesh.vertices.front();
-  double six = 0;
-  for (const Interface& f : mesh.interfaces) {
-    if (is_in(f.front) == is_in(f.back)) continue;
-    const auto p = [&](std::size_t k) {
-      return Vec3(mesh.vertices[f.vertices[k]] - from);
-    };
-    six += (is_in(f.back) ? 1 : -1) * p(0).dot(p(1).cross(p(2)));
-  }
-  return six / 6;
-}
-
 /// One after another. What opens later gives to those before it, or takes from them, next to
 /// nothing of their volume; that is made up for.
 void open_spaces(std::vector<Filled>& filled, TetMesh& mesh) {
@@ -330,7 +313,7 @@ void open_spaces(std::vector<Filled>& filled, TetMesh& mesh) {
     bool exact = true;
     for (std::size_t k = 0; k + 1 < filled.size(); ++k) {
       const double volume = wanted[k].filling.volume;
-      const double off = held_in(mesh, *filled[k].space) - held_in(rest, *filled[k].space) - volume;
+      const double off = filled[k].space->volume_in(mesh) - filled[k].space->volume_in(rest) - volume;
       if (std::abs(off) <= kExact * volume) continue;
       exact = false;
       filled[k].filling.volume = std::max(0.0, filled[k].filling.volume - off);

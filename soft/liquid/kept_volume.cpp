@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/soft/liquid/kept_volume.h"
 
-#include <array>
 #include <vector>
+
+#include "artus/detail/soft/liquid/space_walls.h"
 
 namespace artus {
 namespace {
@@ -14,25 +15,16 @@ struct Held {
 };
 
 Held held_in(const TetMesh& mesh, const std::vector<bool>& regions, const DeformedBody& tissue) {
-  Held held;
-  const Vec3& from = mesh.vertices.front();
-  const auto is_in = [&](RegionId r) {
-    return r < regions.size() && regions[r];
-  };
-  for (const Interface& f : mesh.interfaces) {
-    if (is_in(f.front) == is_in(f.back)) continue;
-    const double sign = is_in(f.back) ? 1 : -1;
-    std::array<Vec3, 3> p;
-    std::array<Vec3, 3> q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& vertex = mesh.vertices[f.vertices[k]];
-      p[k] = vertex - from;
-      q[k] = p[k] + tissue.displacement(vertex);
+  const std::vector<WallTriangle> walls = walls_of(mesh, regions);
+  std::vector<Vec3> moved = mesh.vertices;
+  std::vector<bool> known(moved.size(), false);
+  for (const WallTriangle& wall : walls)
+    for (const std::uint32_t v : wall) {
+      if (!known[v]) moved[v] += tissue.displacement(mesh.vertices[v]);
+      known[v] = true;
     }
-    held.rest += sign * p[0].dot(p[1].cross(p[2])) / 6;
-    held.moved += sign * q[0].dot(q[1].cross(q[2])) / 6;
-  }
-  return held;
+  const Vec3& from = mesh.vertices.front();
+  return {volume_within(walls, mesh.vertices, from), volume_within(walls, moved, from)};
 }
 
 }  // namespace

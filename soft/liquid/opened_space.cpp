@@ -13,6 +13,7 @@
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/disjoint_sets.h"
 #include "artus/detail/soft/liquid/lens.h"
+#include "artus/detail/soft/liquid/space_walls.h"
 #include "artus/detail/soft/liquid/unfolded.h"
 
 namespace artus {
@@ -50,29 +51,16 @@ OpenedSpace::OpenedSpace(const CompiledJoint& joint, std::vector<RegionId> regio
       field_(joint, cage_, stop) {
   for (RegionId r = 0; r < joint.regions.size(); ++r)
     hard_.push_back(joint.tissue_of(r).haptic.hard);
+  in_.assign(joint.regions.size(), false);
+  for (const RegionId r : regions_) in_[r] = true;
   find_places();
-}
-
-bool OpenedSpace::is_in(RegionId region) const {
-  return std::find(regions_.begin(), regions_.end(), region) != regions_.end();
-}
-
-/// Normals out of the space.
-std::vector<OpenedSpace::Triangle> OpenedSpace::walls_of(const TetMesh& mesh) const {
-  std::vector<Triangle> walls;
-  for (const Interface& f : mesh.interfaces) {
-    const bool front = is_in(f.front);
-    if (front == is_in(f.back)) continue;
-    walls.push_back(front ? Triangle{f.vertices[0], f.vertices[2], f.vertices[1]} : f.vertices);
-  }
-  return walls;
 }
 
 void OpenedSpace::find_places() {
   const std::vector<Vec3>& p = mesh_.vertices;
   std::vector<Vec3> into(p.size(), Vec3::Zero());
   std::vector<bool> on_wall(p.size(), false);
-  for (const auto& [a, b, c] : walls_of(mesh_))
+  for (const auto& [a, b, c] : walls_of(mesh_, in_))
     for (const std::uint32_t v : {a, b, c}) {
       into[v] += (p[b] - p[a]).cross(p[c] - p[a]);
       on_wall[v] = true;
@@ -250,7 +238,7 @@ int OpenedSpace::steps_for(const Flow& flow) const {
 
 /// Each corner once.
 static std::vector<std::uint32_t> corners_of(
-    const std::vector<std::array<std::uint32_t, 3>>& walls) {
+    const std::vector<WallTriangle>& walls) {
   std::vector<std::uint32_t> corners;
   for (const auto& wall : walls) corners.insert(corners.end(), wall.begin(), wall.end());
   std::sort(corners.begin(), corners.end());
@@ -271,14 +259,11 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh,
   const std::vector<double> from = field_.squared_distance(filling.tip);
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].from = from[i];
   flow.reach_ = reach_of(flow, filling.volume);
-  const std::vector<Triangle> walls = walls_of(mesh);
+  const std::vector<WallTriangle> walls = walls_of(mesh, in_);
   const std::vector<std::uint32_t> moving = corners_of(walls);
   std::vector<Vec3> moved = mesh.vertices;
   const auto held = [&] {
-    double six = 0;
-    for (const auto& [a, b, c] : walls)
-      six += (moved[a] - filling.tip).dot((moved[b] - filling.tip).cross(moved[c] - filling.tip));
-    return six / 6;
+    return volume_within(walls, moved, filling.tip);
   };
   const double rest = held();
   double rate = 0;  // m^3/Pa
@@ -355,8 +340,8 @@ void OpenedSpace::put_right(const TetMesh& mesh, std::vector<bool> held,
   unfolding.loose.assign(hard_.size() + 1, false);  // and what was parted
   unfolding.loose.back() = true;
   for (const RegionId region : regions_) unfolding.loose[region] = true;
-  unfolding.walls = walls_of(mesh_);
-  unfolding.finer = walls_of(mesh);
+  unfolding.walls = walls_of(mesh_, in_);
+  unfolding.finer = walls_of(mesh, in_);
   unfold(mesh, unfolding, moved);
 }
 
@@ -399,14 +384,8 @@ void OpenedSpace::smooth(std::span<const Edge> edges, const TetMesh& mesh,
     }
 }
 
-double OpenedSpace::rest_volume() const {
-  const std::vector<Triangle> walls = walls_of(mesh_);
-  const Vec3 from = mesh_.vertices[walls.front()[0]];
-  double six = 0;
-  for (const auto& [a, b, c] : walls)
-    six +=
-        (mesh_.vertices[a] - from).dot((mesh_.vertices[b] - from).cross(mesh_.vertices[c] - from));
-  return six / 6;
+double OpenedSpace::volume_in(const TetMesh& mesh) const {
+  return volume_within(walls_of(mesh, in_), mesh.vertices);
 }
 
 double OpenedSpace::max_volume() const {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -78,7 +77,9 @@ class OpenedSpace {
   /// Whether `volume` m^3 open all of the space, as far as it takes.
   [[nodiscard]] bool confines(const Vec3& tip, double volume) const;
   /// m^3 of the space at rest.
-  [[nodiscard]] double rest_volume() const;
+  [[nodiscard]] double rest_volume() const { return volume_in(mesh_); }
+  /// m^3 within its walls in a mesh as vertices() takes or gives it.
+  [[nodiscard]] double volume_in(const TetMesh& mesh) const;
   /// m^3 more than at rest that its shape can take. Two walls of an area A that do not stretch, as
   /// a flat sac blown round, hold 1.2185 (A / pi)^(3/2) ([Paulsen1994], a mylar balloon); a
   /// quarter more is let in, of walls 8 % longer. Fitted: beyond it the tissue around small spaces
@@ -88,9 +89,7 @@ class OpenedSpace {
   [[nodiscard]] std::span<const RegionId> regions() const noexcept { return regions_; }
 
  private:
-  using Triangle = std::array<std::uint32_t, 3>;
-  [[nodiscard]] bool is_in(RegionId region) const;
-  [[nodiscard]] std::vector<Triangle> walls_of(const TetMesh& mesh) const;
+  [[nodiscard]] bool is_in(RegionId region) const { return region < in_.size() && in_[region]; }
   [[nodiscard]] std::vector<SidedCage::Place> places_in(const TetMesh& mesh) const;
   void place_boluses(const TetMesh& mesh, std::vector<bool>& known,
                      std::vector<SidedCage::Place>& places) const;
@@ -108,6 +107,7 @@ class OpenedSpace {
   void fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const;
 
   std::vector<RegionId> regions_;
+  std::vector<bool> in_;    // by region: of the space
   std::vector<bool> hard_;  // by region
   TetMesh mesh_;            // at rest
   SidedCage cage_;

@@ -15,7 +15,7 @@ namespace artus {
 namespace {
 
 using Mat3 = Eigen::Matrix3d;
-using Triangles = std::vector<Unfolding::Triangle>;
+using Triangles = std::vector<WallTriangle>;
 
 constexpr double kLeast = 0.05;     // of its volume at rest, what a tetrahedron keeps
 constexpr double kFlattest = 1e-5;  // compactness of what has no shape to keep
@@ -41,13 +41,6 @@ Mat3 edges_of(const std::vector<Vec3>& p, const std::array<std::uint32_t, 4>& te
   Mat3 edges;
   for (int k = 0; k < 3; ++k) edges.col(k) = p[tet[static_cast<std::size_t>(k + 1)]] - p[tet[0]];
   return edges;
-}
-
-double volume_within(const Triangles& walls, const std::vector<Vec3>& p) {
-  const Vec3& from = p[walls.front()[0]];
-  double six = 0;
-  for (const auto& [a, b, c] : walls) six += (p[a] - from).dot((p[b] - from).cross(p[c] - from));
-  return six / 6;
 }
 
 /// Triangles around each vertex, and which of their corners it is.

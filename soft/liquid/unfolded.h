@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/soft/liquid/space_walls.h"
 
 namespace artus {
 
 /// What tetrahedra that were turned over are put right by.
 struct Unfolding {
-  using Triangle = std::array<std::uint32_t, 3>;
   std::vector<bool> held;       ///< by vertex: does not move
   std::vector<bool> loose;      ///< by region: liquid, which has no shape
-  std::vector<Triangle> walls;  ///< of the liquid, of tetrahedra's corners; normals out of it
-  std::vector<Triangle> finer;  ///< the same as it is drawn, which may be cut finer
+  std::vector<WallTriangle> walls;  ///< of the liquid, of tetrahedra's corners; normals out of it
+  std::vector<WallTriangle> finer;  ///< the same as it is drawn, which may be cut finer
 };
 
 /// Moves vertices until no tetrahedron of tissue is turned over or squeezed to a twentieth, as few

@@ -57,21 +57,21 @@ TetMesh make_block() {
 }
 
 /// Faces between liquid and tissue, normals out of the liquid.
-std::vector<Unfolding::Triangle> walls_of(const TetMesh& mesh) {
-  std::map<Unfolding::Triangle, std::pair<Unfolding::Triangle, int>> faces;
+std::vector<WallTriangle> walls_of(const TetMesh& mesh) {
+  std::map<WallTriangle, std::pair<WallTriangle, int>> faces;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     if (mesh.regions[t] != kLiquid) continue;
     const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    for (const Unfolding::Triangle& face :
-         {Unfolding::Triangle{a, c, b}, {a, b, d}, {a, d, c}, {b, c, d}}) {
-      Unfolding::Triangle key = face;
+    for (const WallTriangle& face :
+         {WallTriangle{a, c, b}, {a, b, d}, {a, d, c}, {b, c, d}}) {
+      WallTriangle key = face;
       std::sort(key.begin(), key.end());
       auto& known = faces[key];
       known.first = face;
       ++known.second;
     }
   }
-  std::vector<Unfolding::Triangle> walls;
+  std::vector<WallTriangle> walls;
   for (const auto& [key, face] : faces)
     if (face.second == 1) walls.push_back(face.first);
   return walls;
@@ -87,7 +87,7 @@ Unfolding unfolding_of(const TetMesh& mesh) {
   return unfolding;
 }
 
-double volume_in(const std::vector<Unfolding::Triangle>& walls, const std::vector<Vec3>& p) {
+double volume_in(const std::vector<WallTriangle>& walls, const std::vector<Vec3>& p) {
   double six = 0;
   for (const auto& [a, b, c] : walls) six += p[a].dot(p[b].cross(p[c]));
   return six / 6;
