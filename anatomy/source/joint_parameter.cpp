@@ -112,13 +112,24 @@ std::vector<toml::table*> find_tables(toml::table& joint, std::string_view path)
   return list == nullptr ? found : std::vector<toml::table*>{};
 }
 
+/// Those of the joint, and of variants that bring their own in the place of the joint's.
+std::vector<toml::table*> find_with_variants(toml::table& joint, std::string_view path) {
+  std::vector<toml::table*> found = find_tables(joint, path);
+  toml::table* variants = joint.get_as<toml::table>("variant");
+  if (variants == nullptr) return found;
+  for (auto&& [name, variant] : *variants)
+    if (toml::table* own = variant.as_table(); own && own->contains(path.substr(0, path.find('.'))))
+      for (toml::table* table : find_tables(*own, path)) found.push_back(table);
+  return found;
+}
+
 void apply_action(toml::table& joint, const ParameterAction& action, double away,
                   const std::string& name, Problems& problems) {
   const std::size_t dot = action.key.rfind('.');
   const std::string last = action.key.substr(dot == std::string::npos ? 0 : dot + 1);
   const auto tables = dot == std::string::npos
                           ? std::vector<toml::table*>{}
-                          : find_tables(joint, std::string_view(action.key).substr(0, dot));
+                          : find_with_variants(joint, std::string_view(action.key).substr(0, dot));
   if (tables.empty()) {
     problems.add(joint, "parameter '" + name + "': there is nothing named " + action.key);
     return;

@@ -79,6 +79,23 @@ TEST_F(Parameters, AValueMovesEachNumberByItsSlopeFromWhatWasModelled) {
   ASSERT_EQ(thick->parameters.size(), 2U);
 }
 
+TEST_F(Parameters, ARegionThatAVariantBringsGrowsAsTheJointsDoes) {
+  std::string text = kJoint;
+  const std::string acts = "acts = [";
+  text.insert(text.find(acts) + acts.size(), "{ key = \"region_of_interest.radius\", per = 1.0 }, ");
+  const std::string title = "title = \"a tear\"\n";
+  text.insert(text.find(title) + title.size(),
+              "region_of_interest = { centre = [0.0, 10.0, 0.0], radius = 20.0 }\n");
+  text.insert(text.find("[variant.tear]"),
+              "[region_of_interest]\ncentre = [0.0, 0.0, 0.0]\nradius = 40.0\n");
+  const auto whole = read("fat=15", text);
+  ASSERT_TRUE(whole) << whole.error().to_string();
+  EXPECT_DOUBLE_EQ(whole->region_of_interest->radius, 50e-3);
+  const auto torn = read("fat=15,tear=1", text);
+  ASSERT_TRUE(torn) << torn.error().to_string();
+  EXPECT_DOUBLE_EQ(torn->region_of_interest->radius, 30e-3);
+}
+
 TEST_F(Parameters, TheModelledValueChangesNothingOfTheShape) {
   const std::string modelled = read("").value().shape;
   EXPECT_EQ(modelled.find("parameter"), std::string::npos);
