@@ -40,18 +40,6 @@ bool is_there(const CompiledJoint& joint, std::uint32_t region) {
                      [&](const Interface& f) { return f.front == region || f.back == region; });
 }
 
-std::vector<Injected> injected_of(const CompiledJoint& joint, const JointSpaces& spaces,
-                                  const std::vector<InjectedSite>& sites) {
-  std::vector<Injected> injected;
-  for (const InjectedSite& site : sites)
-    if (is_there(joint, site.region))
-      injected.push_back(
-          {joint.regions[site.region].name, site.volume, site.cavity != 0,
-           Vec3(site.p_J[0], site.p_J[1], site.p_J[2]),
-           pressure_of(spaces.spaces[spaces.of_region[site.region]].law, site.volume)});
-  return injected;
-}
-
 JointSpaces spaces_of(const CompiledJoint& joint) {
   auto spaces = make_joint_spaces(joint);
   ARTUS_REQUIRE(spaces.has_value(), "the joint's spaces must be valid");
@@ -104,6 +92,18 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
 }
 
 }  // namespace
+
+std::vector<Injected> injected_of(const CompiledJoint& joint, const JointSpaces& spaces,
+                                  std::span<const InjectedSite> sites) {
+  std::vector<Injected> injected;
+  for (const InjectedSite& site : sites)
+    if (is_there(joint, site.region))
+      injected.push_back(
+          {joint.regions[site.region].name, site.volume, site.cavity != 0,
+           Vec3(site.p_J[0], site.p_J[1], site.p_J[2]),
+           pressure_of(spaces.spaces[spaces.of_region[site.region]].law, site.volume)});
+  return injected;
+}
 
 bool FluidShape::misses_volume() const noexcept {
   return std::abs(more / made - 1) > kMissed;

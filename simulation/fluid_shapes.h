@@ -9,6 +9,7 @@
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/simulation/syringe_core.h"
+#include "artus/detail/soft/liquid/injected_body.h"
 #include "artus/detail/soft/liquid/opened_spaces.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/soft/solver/face_stress.h"
@@ -16,6 +17,12 @@
 #include "artus/raycast/scene.h"
 
 namespace artus {
+
+/// Places as shapes are made of them: what went outside, or into a region that the body has not, is
+/// left out. `spaces`: the joint's.
+[[nodiscard]] std::vector<Injected> injected_of(const CompiledJoint& joint,
+                                                const JointSpaces& spaces,
+                                                std::span<const InjectedSite> sites);
 
 /// Liquid that a shape was made of.
 struct DrawnLiquid {

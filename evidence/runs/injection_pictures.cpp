@@ -17,7 +17,7 @@
 #include "artus/detail/dataset/video_file.h"
 #include "artus/detail/evidence/runs/injection_plume.h"
 #include "artus/detail/evidence/runs/injection_view.h"
-#include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/simulation/fluid_shapes.h"
 #include "artus/detail/soft/liquid/overflow.h"
 #include "artus/detail/training/health/simulated_health.h"
 #include "artus/echo/image_io.h"
@@ -27,61 +27,32 @@
 namespace artus {
 namespace {
 
-constexpr double kApart = 0.2e-3;    // m between rays across a picture
+constexpr double kApart = 0.1e-3;    // m between rays across a picture
 constexpr double kGrid = 0.5e-3;     // m between parallel rays
 constexpr double kReach = 70e-3;     // m around the tip that they cover
-constexpr double kStep = 0.1e-3;     // m along the needle
 constexpr double kBelowTip = 12e-3;  // m that a picture shows below the tip
 constexpr double kDeepest = 90e-3;   // m
 constexpr double kAgree = 5;         // %
 constexpr int kFrames = 36;          // of a video
 constexpr double kFrameRate = 9;     // 1/s
 constexpr double kAround = 2;        // s before the first flow and after the last in it
-constexpr double kDrawn = 10e-9;     // m^3; a smaller rest on the needle's way is left out
+constexpr double kDrawn = 10e-9;     // m^3; less is left out
 
-/// Half way between the sides of the layer that a bolus parts, across it: where it opens most
-/// easily.
-Vec3 middle_of_layer(const Scene& scene, const Injected& place) {
-  constexpr double kReachAcross = 15e-3;  // m
-  const RegionId region = scene.region_at(place.tip);
-  const Vec3 across = make_boluses(scene.joint(), region, place.tip, 1e-9).front().axes.col(2);
-  const Vec3 start = place.tip - kReachAcross * across;
-  for (const TissueInterval& s :
-       tissue_intervals(scene, {start, place.tip + kReachAcross * across}))
-    if (s.region == region && s.entry <= kReachAcross && s.exit >= kReachAcross)
-      return start + (s.entry + s.exit) / 2 * across;
-  return place.tip;
-}
-
-/// The places of a row as shapes, each where the needle met it.
-std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
+/// The places of a row as shapes, each where liquid first came to it.
+std::vector<Injected> places_at(const CompiledJoint& joint, const InjectionRun& run,
                                 const InjectionRow& row) {
-  const auto spaces = make_joint_spaces(scene.joint());
-  std::vector<Injected> places;
-  if (!spaces) return places;
-  const Vec3 axis = run.X_JN.linear().col(2);
-  for (std::size_t k = 0; k < run.places.size() && k < row.volumes.size(); ++k) {
-    const auto space = std::find_if(spaces->spaces.begin(), spaces->spaces.end(),
-                                    [&](const Space& s) { return s.name == run.places[k]; });
-    if (space == spaces->spaces.end() || space->law.kind == SpaceKind::open ||
-        row.volumes[k] < kDrawn)
-      continue;
-    for (double back = 0; back < 0.02; back += kStep) {
-      const Vec3 p = run.X_JN.translation() - back * axis;
-      const std::string& region = scene.joint().regions[scene.region_at(p)].name;
-      if (std::count(space->regions.begin(), space->regions.end(), region) == 0) continue;
-      const bool cavity = space->law.kind == SpaceKind::cavity;
-      places.push_back({region, row.volumes[k], cavity, p});
-      if (cavity) break;
-      // In tissue that the tip has only just left or reached, as deep in it as the liquid is wide.
-      const Vec3 inside = p - std::cbrt(row.volumes[k]) * axis;
-      if (k > 0 && scene.joint().regions[scene.region_at(inside)].name == region)
-        places.back().tip = inside;
-      places.back().tip = middle_of_layer(scene, places.back());
-      break;
-    }
+  const auto spaces = make_joint_spaces(joint);
+  if (!spaces) return {};
+  std::vector<InjectedSite> sites;
+  for (InjectedSite site : run.sites) {
+    const std::string& name = spaces->spaces[spaces->of_region[site.region]].name;
+    const auto place = std::find(run.places.begin(), run.places.end(), name);
+    const auto k = static_cast<std::size_t>(place - run.places.begin());
+    if (k >= row.volumes.size() || row.volumes[k] < kDrawn) continue;
+    site.volume = row.volumes[k];
+    sites.push_back(site);
   }
-  return places;
+  return injected_of(joint, *spaces, sites);
 }
 
 std::shared_ptr<const Scene> scene_of(const OpenedSpaces& spaces, const InjectionRun& run,
@@ -348,7 +319,7 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
   for (int k = 0; k < kFrames; ++k) {
     const double from = first->time - kAround;
     const InjectionRow& row = row_of(run, from + k * (last->time + kAround - from) / (kFrames - 1));
-    const auto body = scene_of(spaces, run, places_at(*scene, run, row));
+    const auto body = scene_of(spaces, run, places_at(scene->joint(), run, row));
     Pose X_JN = run.X_JN;
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
@@ -387,7 +358,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
        {std::pair{"before.png", 0.0}, {"during.png", 0.5}, {"after.png", 1.0}}) {
     const InjectionRow* row = row_at(run, share);
     if (row == nullptr) continue;
-    last = places_at(*scene, run, *row);
+    last = places_at(scene->joint(), run, *row);
     body = scene_of(spaces, run, last);
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);

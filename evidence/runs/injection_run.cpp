@@ -170,6 +170,8 @@ class Trial {
       out_.volumes.push_back(states[k].volume);
       shown_.push_back(k);
     }
+    const auto sites = simulation_.syringe().sites();
+    out_.sites.assign(sites.begin(), sites.end());
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       for (const std::size_t k : shown_) out_.rows[i].volumes.push_back(history_[i][k]);
     }

@@ -7,6 +7,7 @@
 
 #include "artus/detail/haptics/plunger/syringe_choice.h"
 #include "artus/detail/operators/simulated_hand.h"
+#include "artus/detail/simulation/syringe_core.h"
 #include "artus/detail/training/health/body_health.h"
 #include "artus/echo/transducer.h"
 #include "artus/haptics/needle_feel.h"
@@ -74,6 +75,7 @@ struct InjectionRun {
   std::vector<InjectionRow> rows;
   std::vector<std::string> places;   ///< names of the spaces that got anything, the target first
   std::vector<double> volumes;       ///< m^3 in them at the end
+  std::vector<InjectedSite> sites;   ///< where liquid first came to those that are drawn
   std::vector<std::string> regions;  ///< names of the joint's regions, by number
   std::string target;                ///< name of the space that was meant
   std::string target_like;           ///< its profile
