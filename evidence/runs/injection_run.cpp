@@ -29,6 +29,10 @@ constexpr double kGentle = 3.5;            // N on the plunger meanwhile, 3-5 in
 constexpr double kLoosens = 1.25;  // of the break-loose force, what moves a stopper that has rested
 constexpr double kNotice = 0.2;    // s until it is seen that the target does not fill; assumed
 constexpr double kEased = 1e-3;    // m that it goes on without pressing then; assumed
+constexpr double kResists = 50e3;  // Pa around the bevel that a thumb feels; assumed
+constexpr double kNudge = 0.7e-3;  // m that the tip is moved then at a time; assumed
+constexpr double kEase = 0.5;      // s without the thumb meanwhile; assumed
+constexpr int kMaxNudges = 4;      // assumed
 constexpr double kPull = -6;       // N of aspiration; assumed
 constexpr double kReady = 0.5;     // s while the guard ramps up
 constexpr double kSeated = 1;      // s until the probe is on the skin and presses
@@ -215,6 +219,7 @@ class Trial {
   const HapticSnapshot& step(const InjectionOperator& person) {
     const OperatorPhase* phase = person.present();
     if (phase != nullptr && phase->until_flow && eases(contact().tick().depth)) phase = nullptr;
+    if (phase != nullptr && phase->until_given && moves_on()) phase = nullptr;
     if (probe_) hands_.hold_probe(probe_->held());
     const TickInput input = simulation_.next_input(hands_.read(phase));
     return recorder_ ? recorder_->step(input) : simulation_.step(input);
@@ -224,7 +229,7 @@ class Trial {
   [[nodiscard]] OperatorView view() {
     OperatorView view = view_of(simulation_.needle());
     look();
-    if (contact().inserted()) view.depth = contact().tick().depth - deeper_;
+    if (contact().inserted()) view.depth = contact().tick().depth - deeper_ - nudged_;
     view.flows = flows_into_target();
     view.given = hands_.thumb().enough();
     return view;
@@ -257,6 +262,28 @@ class Trial {
       strayed_ = 0;
     }
     return std::abs(depth - eased_at_) < kEased;
+  }
+
+  /// What is given and runs beside the target, or is pushed back, is noticed too: the thumb lets go,
+  /// and the tip is moved a little toward the target. Whether it does so now.
+  [[nodiscard]] bool moves_on() {
+    const double period = 1 / spec_.rate_hz;
+    if (easing_ > 0) {
+      easing_ -= period;
+      return true;
+    }
+    const PlungerState& state = plunger().state();
+    const bool strays = !fills_ && (state.flow > kFlows || state.tip_pressure > kResists);
+    strayed_ = strays ? strayed_ + period : 0;
+    if (strayed_ < kNotice || nudges_ == kMaxNudges || !probe_) return false;
+    strayed_ = 0;
+    ++nudges_;
+    easing_ = kEase;
+    const double middle = (plan_.layer.from + plan_.layer.to) / 2;
+    const auto seen = layer_seen(contact(), plan_.region, middle);
+    const bool beyond = seen && contact().tick().depth > seen->exit;
+    nudged_ += beyond ? -kNudge : kNudge;
+    return true;
   }
 
   void record(double t, const Pose& measured, const HapticSnapshot& tick,
@@ -320,6 +347,9 @@ class Trial {
   double target_volume_ = 0;
   bool fills_ = false;
   double strayed_ = 0;   // s of flow elsewhere
+  double easing_ = 0;    // s without the thumb that are left
+  int nudges_ = 0;
+  double nudged_ = 0;    // m that the tip was moved on
   double eased_at_ = 1;  // m, depth at which the hand let go; 1: nowhere
   double min_ = 1;
   double max_ = 0;
