@@ -264,8 +264,8 @@ class Trial {
     return std::abs(depth - eased_at_) < kEased;
   }
 
-  /// What is given and runs beside the target, or is pushed back, is noticed too: the thumb lets go,
-  /// and the tip is moved a little toward the target. Whether it does so now.
+  /// What is given and runs beside the target, or is pushed back, is noticed too: the thumb lets
+  /// go, and the tip is moved a little toward the target. Whether it does so now.
   [[nodiscard]] bool moves_on() {
     const double period = 1 / spec_.rate_hz;
     if (easing_ > 0) {
@@ -346,8 +346,8 @@ class Trial {
   std::vector<std::vector<double>> history_;
   double target_volume_ = 0;
   bool fills_ = false;
-  double strayed_ = 0;   // s of flow elsewhere
-  double easing_ = 0;    // s without the thumb that are left
+  double strayed_ = 0;  // s of flow elsewhere
+  double easing_ = 0;   // s without the thumb that are left
   int nudges_ = 0;
   double nudged_ = 0;    // m that the tip was moved on
   double eased_at_ = 1;  // m, depth at which the hand let go; 1: nowhere

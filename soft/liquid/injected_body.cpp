@@ -313,7 +313,8 @@ void open_spaces(std::vector<Filled>& filled, TetMesh& mesh) {
     bool exact = true;
     for (std::size_t k = 0; k + 1 < filled.size(); ++k) {
       const double volume = wanted[k].filling.volume;
-      const double off = filled[k].space->volume_in(mesh) - filled[k].space->volume_in(rest) - volume;
+      const double off =
+          filled[k].space->volume_in(mesh) - filled[k].space->volume_in(rest) - volume;
       if (std::abs(off) <= kExact * volume) continue;
       exact = false;
       filled[k].filling.volume = std::max(0.0, filled[k].filling.volume - off);

@@ -237,8 +237,7 @@ int OpenedSpace::steps_for(const Flow& flow) const {
 }
 
 /// Each corner once.
-static std::vector<std::uint32_t> corners_of(
-    const std::vector<WallTriangle>& walls) {
+static std::vector<std::uint32_t> corners_of(const std::vector<WallTriangle>& walls) {
   std::vector<std::uint32_t> corners;
   for (const auto& wall : walls) corners.insert(corners.end(), wall.begin(), wall.end());
   std::sort(corners.begin(), corners.end());

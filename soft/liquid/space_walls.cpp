@@ -24,8 +24,7 @@ double volume_within(std::span<const WallTriangle> walls, std::span<const Vec3> 
   return six / 6;
 }
 
-double volume_within(std::span<const WallTriangle> walls,
-                     std::span<const Vec3> vertices) noexcept {
+double volume_within(std::span<const WallTriangle> walls, std::span<const Vec3> vertices) noexcept {
   return volume_within(walls, vertices, vertices[walls.front()[0]]);
 }
 

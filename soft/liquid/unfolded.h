@@ -9,8 +9,8 @@ namespace artus {
 
 /// What tetrahedra that were turned over are put right by.
 struct Unfolding {
-  std::vector<bool> held;       ///< by vertex: does not move
-  std::vector<bool> loose;      ///< by region: liquid, which has no shape
+  std::vector<bool> held;           ///< by vertex: does not move
+  std::vector<bool> loose;          ///< by region: liquid, which has no shape
   std::vector<WallTriangle> walls;  ///< of the liquid, of tetrahedra's corners; normals out of it
   std::vector<WallTriangle> finer;  ///< the same as it is drawn, which may be cut finer
 };

@@ -62,8 +62,7 @@ std::vector<WallTriangle> walls_of(const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     if (mesh.regions[t] != kLiquid) continue;
     const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    for (const WallTriangle& face :
-         {WallTriangle{a, c, b}, {a, b, d}, {a, d, c}, {b, c, d}}) {
+    for (const WallTriangle& face : {WallTriangle{a, c, b}, {a, b, d}, {a, d, c}, {b, c, d}}) {
       WallTriangle key = face;
       std::sort(key.begin(), key.end());
       auto& known = faces[key];

@@ -82,7 +82,8 @@ TEST_F(Parameters, AValueMovesEachNumberByItsSlopeFromWhatWasModelled) {
 TEST_F(Parameters, ARegionThatAVariantBringsGrowsAsTheJointsDoes) {
   std::string text = kJoint;
   const std::string acts = "acts = [";
-  text.insert(text.find(acts) + acts.size(), "{ key = \"region_of_interest.radius\", per = 1.0 }, ");
+  text.insert(text.find(acts) + acts.size(),
+              "{ key = \"region_of_interest.radius\", per = 1.0 }, ");
   const std::string title = "title = \"a tear\"\n";
   text.insert(text.find(title) + title.size(),
               "region_of_interest = { centre = [0.0, 10.0, 0.0], radius = 20.0 }\n");
