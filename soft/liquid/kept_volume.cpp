@@ -16,15 +16,17 @@ struct Held {
 
 Held held_in(const TetMesh& mesh, const std::vector<bool>& regions, const DeformedBody& tissue) {
   const std::vector<WallTriangle> walls = walls_of(mesh, regions);
-  std::vector<Vec3> moved = mesh.vertices;
-  std::vector<bool> known(moved.size(), false);
+  std::vector<Vec3> rest(mesh.vertices.size());  // from the first, so that less is lost
+  std::vector<Vec3> moved(mesh.vertices.size());
+  std::vector<bool> known(mesh.vertices.size(), false);
   for (const WallTriangle& wall : walls)
     for (const std::uint32_t v : wall) {
-      if (!known[v]) moved[v] += tissue.displacement(mesh.vertices[v]);
+      if (known[v]) continue;
       known[v] = true;
+      rest[v] = mesh.vertices[v] - mesh.vertices.front();
+      moved[v] = rest[v] + tissue.displacement(mesh.vertices[v]);
     }
-  const Vec3& from = mesh.vertices.front();
-  return {volume_within(walls, mesh.vertices, from), volume_within(walls, moved, from)};
+  return {volume_within(walls, rest, Vec3::Zero()), volume_within(walls, moved, Vec3::Zero())};
 }
 
 }  // namespace

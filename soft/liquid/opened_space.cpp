@@ -383,8 +383,12 @@ void OpenedSpace::smooth(std::span<const Edge> edges, const TetMesh& mesh,
     }
 }
 
+double OpenedSpace::rest_volume() const {
+  return volume_within(walls_of(mesh_, in_), mesh_.vertices);
+}
+
 double OpenedSpace::volume_in(const TetMesh& mesh) const {
-  return volume_within(walls_of(mesh, in_), mesh.vertices);
+  return volume_within(walls_of(mesh, in_), mesh.vertices, mesh.vertices.front());
 }
 
 double OpenedSpace::max_volume() const {

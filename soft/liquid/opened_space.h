@@ -77,7 +77,7 @@ class OpenedSpace {
   /// Whether `volume` m^3 open all of the space, as far as it takes.
   [[nodiscard]] bool confines(const Vec3& tip, double volume) const;
   /// m^3 of the space at rest.
-  [[nodiscard]] double rest_volume() const { return volume_in(mesh_); }
+  [[nodiscard]] double rest_volume() const;
   /// m^3 within its walls in a mesh as vertices() takes or gives it.
   [[nodiscard]] double volume_in(const TetMesh& mesh) const;
   /// m^3 more than at rest that its shape can take. Two walls of an area A that do not stretch, as
