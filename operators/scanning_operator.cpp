@@ -6,6 +6,7 @@
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/operators/thumb_dose.h"
 
 namespace artus {
 namespace {
@@ -21,11 +22,8 @@ constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kTent = 5e-3;         // m past the target while its wall holds; assumed
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
-constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
 constexpr double kNoticed = 0.3e-3;    // m off where it came to rest, which is seen; assumed
 constexpr double kKeepSpeed = 2e-3;    // m/s at most meanwhile; assumed
-constexpr int kMaxNudges = 4;          // assumed
-constexpr double kEase = 0.5;          // s without the thumb while the needle is moved; assumed
 constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
@@ -186,16 +184,16 @@ void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& gla
   if (time - phase_time_ < kHold && !resists) return;
   if (glance.given) {
     begin(Phase::withdraw, time);
-  } else if ((glance.astray || resists) && nudges_ < kMaxNudges) {
+  } else if ((glance.astray || resists) && nudges_ < Redirection::kMost) {
     ++nudges_;
     if (draw() >= (resists ? skill_.feel : skill_.look)) return;
-    if (resists) eases_until_ = time + kEase;
+    if (resists) eases_until_ = time + Redirection::kEase;
     if (glance.tents) {
       feels_tent_ = true;
       begin(Phase::advance, time);
       return;
     }
-    phase_distance_ += std::copysign(kNudge, to_target);
+    phase_distance_ += std::copysign(Redirection::kNudge, to_target);
     phase_time_ = time;
     rested_.reset();
   }

@@ -33,6 +33,15 @@ class HeldBarrel {
 /// 10, as is taught.
 [[nodiscard]] double run_out_time(const PlungerParams& params);
 
+/// What a hand does whose liquid runs beside its target or is pushed back: it lets go for a while
+/// and moves the tip a little. assumed: all of it.
+struct Redirection {
+  static constexpr double kResists = 50e3;  ///< Pa around the bevel that a thumb feels
+  static constexpr double kNudge = 0.7e-3;  ///< m that the tip is moved at a time
+  static constexpr double kEase = 0.5;      ///< s without the thumb meanwhile
+  static constexpr int kMost = 4;           ///< times
+};
+
 /// What the thumb does of one dose. It presses until what is out and what the barrel will still
 /// give while it is held are what was meant, as a hand stops before the mark, or until nothing has
 /// gone in for 6 s (assumed). Then it holds the plunger, which a tense space would push back, until

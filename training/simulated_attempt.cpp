@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "artus/detail/operators/looking_operator.h"
+#include "artus/detail/operators/thumb_dose.h"
 #include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/simulation/simulated_hands.h"
 #include "artus/detail/training/health/simulated_health.h"
@@ -20,7 +21,6 @@ namespace {
 constexpr double kRate = 1000;          // Hz
 constexpr std::uint64_t kGlances = 50;  // ticks from one to the next
 constexpr double kPhysics = 4000;       // Hz
-constexpr double kResists = 50e3;       // Pa around the bevel that a thumb feels; assumed
 constexpr double kSeenVolume = 0.3e-6;  // m^3 that split a line visibly; assumed
 
 HandParams hand_of(const OperatorSkill& skill, std::uint64_t seed) {
@@ -168,7 +168,7 @@ class NeedleAttempt final : public SimulatedAttempt {
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
     seen.given = !hands_.has_thumb() || hands_.thumb().done();
-    seen.resists = out.feedback.plunger.tip_pressure > kResists;
+    seen.resists = out.feedback.plunger.tip_pressure > Redirection::kResists;
     seen.astray = out.feedback.plunger.given > kSeenVolume && !fills_target(out);
     person_.look(t, X_JN, seen);
   }

@@ -14,6 +14,7 @@
 #include "artus/detail/haptics/plunger/bevel.h"
 #include "artus/detail/haptics/plunger/patient.h"
 #include "artus/detail/operators/injection_operator.h"
+#include "artus/detail/operators/thumb_dose.h"
 #include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/simulation/simulated_hands.h"
 #include "artus/detail/training/health/simulated_health.h"
@@ -29,10 +30,6 @@ constexpr double kGentle = 3.5;            // N on the plunger meanwhile, 3-5 in
 constexpr double kLoosens = 1.25;  // of the break-loose force, what moves a stopper that has rested
 constexpr double kNotice = 0.2;    // s until it is seen that the target does not fill; assumed
 constexpr double kEased = 1e-3;    // m that it goes on without pressing then; assumed
-constexpr double kResists = 50e3;  // Pa around the bevel that a thumb feels; assumed
-constexpr double kNudge = 0.7e-3;  // m that the tip is moved then at a time; assumed
-constexpr double kEase = 0.5;      // s without the thumb meanwhile; assumed
-constexpr int kMaxNudges = 4;      // assumed
 constexpr double kPull = -6;       // N of aspiration; assumed
 constexpr double kReady = 0.5;     // s while the guard ramps up
 constexpr double kSeated = 1;      // s until the probe is on the skin and presses
@@ -273,16 +270,17 @@ class Trial {
       return true;
     }
     const PlungerState& state = plunger().state();
-    const bool strays = !fills_ && (state.flow > kFlows || state.tip_pressure > kResists);
+    const bool strays =
+        !fills_ && (state.flow > kFlows || state.tip_pressure > Redirection::kResists);
     strayed_ = strays ? strayed_ + period : 0;
-    if (strayed_ < kNotice || nudges_ == kMaxNudges || !probe_) return false;
+    if (strayed_ < kNotice || nudges_ == Redirection::kMost || !probe_) return false;
     strayed_ = 0;
     ++nudges_;
-    easing_ = kEase;
+    easing_ = Redirection::kEase;
     const double middle = (plan_.layer.from + plan_.layer.to) / 2;
     const auto seen = layer_seen(contact(), plan_.region, middle);
     const bool beyond = seen && contact().tick().depth > seen->exit;
-    nudged_ += beyond ? -kNudge : kNudge;
+    nudged_ += beyond ? -Redirection::kNudge : Redirection::kNudge;
     return true;
   }
 
