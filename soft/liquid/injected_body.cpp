@@ -10,7 +10,10 @@
 #include <span>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 #include "artus/detail/core/check.h"
+#include "artus/detail/core/closest_point.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/soft/liquid/bolus_opening.h"
 #include "artus/detail/soft/liquid/overflow.h"
@@ -24,18 +27,54 @@ constexpr double kLeastRoom = 0.05e-6;   // m^3 that any tissue has room for; as
 constexpr double kMinPressure = 500;     // Pa of a space's liquid: what lies on it; assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
 
-Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
+/// m from p to the nearest of the surfaces that `counts`; infinite where there is none.
+template <class Counts>
+Vec3 to_nearest(const CompiledJoint& joint, const Vec3& p, const Counts& counts) {
+  const auto& v = joint.mesh.vertices;
   double least = std::numeric_limits<double>::infinity();
-  Vec3 direction = Vec3::UnitZ();
+  Vec3 to = Vec3::Constant(least);
   for (const Interface& f : joint.mesh.interfaces) {
-    if (f.front != kOutside && f.back != kOutside) continue;
-    const Vec3 to = joint.mesh.vertices[f.vertices[0]] - p;
-    if (to.squaredNorm() < least && to.norm() > 0) {
-      least = to.squaredNorm();
-      direction = to.normalized();
-    }
+    if (!counts(f)) continue;
+    const std::array<Vec3, 3> t{v[f.vertices[0]], v[f.vertices[1]], v[f.vertices[2]]};
+    const double reach = std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
+    if ((t[0] - p).norm() - reach >= least) continue;
+    const Vec3 way = closest_point_on_triangle(p, t) - p;
+    if (way.norm() >= least) continue;
+    least = way.norm();
+    to = way;
   }
-  return direction;
+  return to;
+}
+
+/// The nearest of the skin.
+Vec3 to_skin(const CompiledJoint& joint, const Vec3& p) {
+  return to_nearest(joint, p,
+                    [](const Interface& f) { return f.front == kOutside || f.back == kOutside; });
+}
+
+Vec3 to_bone(const CompiledJoint& joint, const Vec3& p) {
+  return to_nearest(joint, p, [&joint](const Interface& f) {
+    return joint.tissue_of(f.front).haptic.hard != joint.tissue_of(f.back).haptic.hard;
+  });
+}
+
+/// Unit; z where there is no way.
+Vec3 direction_of(const Vec3& way) {
+  return way.allFinite() && way.norm() > 0 ? way.normalized() : Vec3::UnitZ();
+}
+
+/// Unit, toward the skin: across what is nearest, skin or bone, since liquid spreads along both.
+/// Between them it turns by 1/distance^2.
+Vec3 across_layers(const CompiledJoint& joint, const Vec3& p) {
+  constexpr double kOnIt = 1e-6;  // m
+  const Vec3 skin = to_skin(joint, p);
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+  for (const Vec3& way : {skin, to_bone(joint, p)})
+    if (way.allFinite() && way.norm() > kOnIt)
+      across += way * way.transpose() / (way.squaredNorm() * way.squaredNorm());
+  if (across.isZero()) return direction_of(skin);
+  const Vec3 axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(across).eigenvectors().col(2);
+  return direction_of(skin).dot(axis) < 0 ? Vec3(-axis) : axis;
 }
 
 /// The liquid as a tissue of the joint: what sound meets in it, with its grains. The tissue of that
@@ -76,15 +115,16 @@ BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrou
   return {Vec3(4e-3, 4e-3, 1e-3), 1, 0, 0, 0, 0, true};
 }
 
-/// Unit, in columns: along the fibres, beside them, toward the skin. A region has one axis for all
-/// of its fibres; near the skin they run along it.
+/// Unit, in columns: along the fibres, beside them, across the layers. A region has one axis for
+/// all of its fibres; near skin and bone they run along these.
 Eigen::Matrix3d axes_at(const CompiledJoint& joint, RegionId region, const Vec3& p, bool& fibrous) {
-  const Vec3 skin = toward_skin(joint, p);
+  const Vec3 skin = direction_of(to_skin(joint, p));
   Vec3 along = joint.regions[region].fibre_axis;
   along -= along.dot(skin) * skin;
   fibrous = along.norm() > 0.1;
-  along = fibrous ? along.normalized() : skin.unitOrthogonal();
-  Vec3 up = skin - skin.dot(along) * along;
+  const Vec3 across = fibrous ? skin : across_layers(joint, p);
+  along = fibrous ? along.normalized() : across.unitOrthogonal();
+  Vec3 up = across - across.dot(along) * along;
   up = up.norm() > 1e-3 ? up.normalized() : along.unitOrthogonal();
   Eigen::Matrix3d axes;
   axes << along, up.cross(along), up;
@@ -211,6 +251,19 @@ bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
   return true;
 }
 
+/// The middle of a lens whose tip is at its centre: where bone is nearer than the lens is thick it
+/// lies on the bone, as far as the region reaches, so that it does not go around it.
+Vec3 off_bone(const CompiledJoint& joint, const Bolus& lens) {
+  constexpr double kOfRegion = 0.5;  // of its way on
+  const double side = std::cbrt(lens.volume / (kBall * lens.proportion.prod()));
+  const Vec3 bone = to_bone(joint, lens.centre);
+  const double lift = side * lens.proportion.z() - bone.norm();
+  if (!(lift > 0) || !(bone.norm() > 0)) return lens.centre;
+  const Vec3 away = -bone.normalized();
+  const double room = Walls(joint, lens.region).reach(lens.centre, away);
+  return lens.centre + std::min(lift, kOfRegion * room) * away;
+}
+
 }  // namespace
 
 std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
@@ -228,6 +281,7 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
     Vec3& full = boluses[0].proportion;
     const double side = std::sqrt(volume / (kBall * full.y() * full.z() * bevel_flow.longest));
     full.x() = std::min(full.x(), bevel_flow.longest / side);
+    if (bevel_flow.lens) boluses[0].centre = off_bone(joint, boluses[0]);
     return boluses;
   }
   const Walls walls(joint, region);

@@ -26,7 +26,8 @@ struct Bolus {
 /// each and 2 mm apart. Tendon and what else has fibres: clefts between fibrils that stay, 9 : 6 :
 /// 0.4 mm, 0.09 ml each and 1 mm apart, half of a length 15 mm at most. Both are staggered along
 /// the fibres, flat toward the skin, lie in the region alone and grow where there is no room for
-/// more. Nerve: one spindle of 8 : 3 : 0.5; fat: one lens of 4 : 4 : 1. assumed: all of it.
+/// more. Nerve: one spindle of 8 : 3 : 0.5; fat: one lens of 4 : 4 : 1, flat toward what is
+/// nearest, skin or bone; at bone it lies on it, the tip in it. assumed: all of it.
 /// Requires: volume > 0. Cost: linear in the region's interfaces.
 [[nodiscard]] std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region,
                                               const Vec3& tip, double volume);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/soft/liquid/injected_body.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -234,6 +238,64 @@ TEST(Bolus, IsNotCutByAWallOfLargeTriangles) {
     EXPECT_GT((in * (middle - bolus.centre)).norm(), 0.95) << "in the liquid";
   }
   EXPECT_GT(pieces, 100U);
+}
+
+/// Fat under a skin at z = 20 mm, beside a bone whose wall is steep: it ends at x = 0.
+CompiledJoint make_fat_beside_bone() {
+  CompiledJoint joint;
+  joint.tissues.resize(2);
+  joint.tissues[0].name = "fat";
+  joint.tissues[0].acoustic.kind = TissueKind::fat;
+  joint.tissues[1].name = "bone";
+  joint.tissues[1].haptic.hard = true;
+  joint.regions = {{"outside", 0, Vec3::Zero()},
+                   {"beyond", 0, Vec3::Zero()},
+                   {"fat", 0, Vec3::Zero()},
+                   {"bone", 1, Vec3::Zero()}};
+  const auto add = [&joint](const Vec3& middle, const Vec3& u, const Vec3& v, RegionId front,
+                            RegionId back) {
+    const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
+    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+      joint.mesh.vertices.push_back(middle + a * u + b * v);
+    for (const auto& t : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}}) {
+      Interface f;
+      f.vertices = {first + t[0], first + t[1], first + t[2]};
+      f.front = front;
+      f.back = back;
+      joint.mesh.interfaces.push_back(f);
+    }
+  };
+  const Vec3 x = 40e-3 * Vec3::UnitX();
+  const Vec3 y = 40e-3 * Vec3::UnitY();
+  const Vec3 z = 40e-3 * Vec3::UnitZ();
+  add(20e-3 * Vec3::UnitZ(), x, y, kOutside, 2);  // normals out of the fat
+  add(Vec3::Zero(), z, y, 3, 2);
+  add(x, y, z, kOutside, 2);
+  return joint;
+}
+
+TEST(Bolus, LiesOnTheBoneThatTheTipTouches) {
+  const CompiledJoint joint = make_fat_beside_bone();
+  const Vec3 tip(0.2e-3, 0, 10e-3);
+  const std::vector<Bolus> boluses = make_boluses(joint, 2, tip, 1e-6);
+  ASSERT_EQ(boluses.size(), 1U);
+  const Bolus& lens = boluses.front();
+  EXPECT_GT(std::abs(lens.axes.col(2).x()), 0.99) << "flat along the bone, not along the skin";
+  const double side = std::cbrt(1e-6 / (4 * std::numbers::pi / 3 * lens.proportion.prod()));
+  const double half = side * lens.proportion.z();
+  EXPECT_NEAR((lens.centre - Vec3(half, 0, 10e-3)).norm(), 0, 1e-6) << "the bone is beside it";
+  EXPECT_LT((lens.centre - tip).norm(), half) << "the tip is in it";
+  const CompiledJoint with = with_boluses(joint, boluses, Liquid{});
+  double farthest = 0;
+  double least = 1;
+  for (const Interface& f : with.mesh.interfaces)
+    if (f.back + 1U == with.regions.size())
+      for (const std::uint32_t v : f.vertices) {
+        farthest = std::max(farthest, (with.mesh.vertices[v] - lens.centre).norm());
+        least = std::min(least, with.mesh.vertices[v].x());
+      }
+  EXPECT_GT(least, 0) << "in the bone";
+  EXPECT_LT(farthest, 1.1 * side * lens.proportion.x()) << "what bone takes of it is not elsewhere";
 }
 
 TEST(InjectedBody, LeavesOutWhatCannotBeSeen) {
