@@ -31,11 +31,18 @@ struct Beyond {
   Vec3 p = Vec3::Zero();
 };
 
-/// m to either side of the tip, of liquid that parts tissue there.
-double half_thickness(const CompiledJoint& joint, RegionId region, const Injected& place) {
+/// Liquid that parts tissue at the tip, as thick as it is there.
+struct Parting {
+  Vec3 middle = Vec3::Zero();  // m, across the layers from the tip
+  double half = 0;             // m to either side of it
+};
+
+Parting parting_of(const CompiledJoint& joint, RegionId region, const Injected& place) {
   const Bolus bolus = make_boluses(joint, region, place.tip, place.volume).back();
   constexpr double kBall = 4 * std::numbers::pi / 3;
-  return std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z();
+  const Vec3 across = bolus.axes.col(2);
+  return {place.tip + across.dot(bolus.centre - place.tip) * across,
+          std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z()};
 }
 
 /// Of the tetrahedron that holds a point; outside where none does.
@@ -142,7 +149,7 @@ std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const Vec3& tip,
   }
   if (found.region < kFirstRegion) return std::nullopt;
   const Injected there{joint.regions[found.region].name, volume, false, found.p, 0};
-  const Vec3 deep = found.p + (half_thickness(joint, found.region, there) + kHoldingFilm) * into;
+  const Vec3 deep = found.p + (parting_of(joint, found.region, there).half + kHoldingFilm) * into;
   if (const RegionId region = region_at(joint.mesh, deep); gives_way(region))
     found = {region, deep};
   return found;
@@ -150,7 +157,7 @@ std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const Vec3& tip,
 
 /// The cavity that it tears, and where its walls are nearest.
 std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpaces& spaces,
-                                    const Vec3& tip, double reach) {
+                                    const Vec3& middle, double reach) {
   const auto is_cavity = [&](RegionId r) {
     return r >= kFirstRegion && spaces.spaces[spaces.of_region[r]].law.kind == SpaceKind::cavity;
   };
@@ -159,7 +166,7 @@ std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpace
     if (is_cavity(f.front) == is_cavity(f.back)) continue;
     const auto& p = joint.mesh.vertices;
     const std::array<Vec3, 3> t{p[f.vertices[0]], p[f.vertices[1]], p[f.vertices[2]]};
-    const double away = (closest_point_on_triangle(tip, t) - tip).norm();
+    const double away = (closest_point_on_triangle(middle, t) - middle).norm();
     if (away >= reach) continue;
     reach = away;
     found = Beyond{is_cavity(f.front) ? f.front : f.back, (t[0] + t[1] + t[2]) / 3};
@@ -188,8 +195,8 @@ bool tear_films(const OpenedSpaces& spaces, const JointSpaces& laws,
   for (Injected& place : places) {
     const auto region = find_region(joint, place.region);
     if (place.cavity || !region || !(place.volume > kDrawn)) continue;
-    const double reach = half_thickness(joint, *region, place) + kHoldingFilm;
-    const auto beside = cavity_beside(joint, laws, place.tip, reach);
+    const Parting parting = parting_of(joint, *region, place);
+    const auto beside = cavity_beside(joint, laws, parting.middle, parting.half + kHoldingFilm);
     if (!beside) continue;
     const OpenedSpace& space = spaces.of(beside->region);
     if (given_to(space, joint, places) + place.volume > space.max_volume()) continue;
