@@ -115,8 +115,8 @@ BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrou
   return {Vec3(4e-3, 4e-3, 1e-3), 1, 0, 0, 0, 0, true};
 }
 
-/// Unit, in columns: along the fibres, beside them, across the layers. A region has one axis for
-/// all of its fibres; near skin and bone they run along these.
+/// Unit, in columns: along the fibres, beside them, toward the skin; without fibres across the
+/// layers. A region has one axis for all of its fibres; near the skin they run along it.
 Eigen::Matrix3d axes_at(const CompiledJoint& joint, RegionId region, const Vec3& p, bool& fibrous) {
   const Vec3 skin = direction_of(to_skin(joint, p));
   Vec3 along = joint.regions[region].fibre_axis;
@@ -255,9 +255,8 @@ bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
 /// lies on the bone, as far as the region reaches, so that it does not go around it.
 Vec3 off_bone(const CompiledJoint& joint, const Bolus& lens) {
   constexpr double kOfRegion = 0.5;  // of its way on
-  const double side = std::cbrt(lens.volume / (kBall * lens.proportion.prod()));
   const Vec3 bone = to_bone(joint, lens.centre);
-  const double lift = side * lens.proportion.z() - bone.norm();
+  const double lift = lens.semi_axes().z() - bone.norm();
   if (!(lift > 0) || !(bone.norm() > 0)) return lens.centre;
   const Vec3 away = -bone.normalized();
   const double room = Walls(joint, lens.region).reach(lens.centre, away);
@@ -265,6 +264,10 @@ Vec3 off_bone(const CompiledJoint& joint, const Bolus& lens) {
 }
 
 }  // namespace
+
+Vec3 Bolus::semi_axes() const {
+  return std::cbrt(volume / (kBall * proportion.prod())) * proportion;
+}
 
 std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
                                 double volume) {

@@ -19,6 +19,9 @@ struct Bolus {
   double volume = 0;                                   ///< m^3
   double ragged = 0;         ///< of its outline: 0.3 makes radii differ by a fifth; 0: smooth
   std::uint64_t number = 0;  ///< that its outline is drawn by
+
+  /// m, its semi-axes where there is no bone.
+  [[nodiscard]] Vec3 semi_axes() const;
 };
 
 /// What a volume that comes in at `tip` opens in a region, in the order of opening, the one around

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -39,10 +38,8 @@ struct Parting {
 
 Parting parting_of(const CompiledJoint& joint, RegionId region, const Injected& place) {
   const Bolus bolus = make_boluses(joint, region, place.tip, place.volume).back();
-  constexpr double kBall = 4 * std::numbers::pi / 3;
   const Vec3 across = bolus.axes.col(2);
-  return {place.tip + across.dot(bolus.centre - place.tip) * across,
-          std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z()};
+  return {place.tip + across.dot(bolus.centre - place.tip) * across, bolus.semi_axes().z()};
 }
 
 /// Of the tetrahedron that holds a point; outside where none does.

@@ -281,8 +281,8 @@ TEST(Bolus, LiesOnTheBoneThatTheTipTouches) {
   ASSERT_EQ(boluses.size(), 1U);
   const Bolus& lens = boluses.front();
   EXPECT_GT(std::abs(lens.axes.col(2).x()), 0.99) << "flat along the bone, not along the skin";
-  const double side = std::cbrt(1e-6 / (4 * std::numbers::pi / 3 * lens.proportion.prod()));
-  const double half = side * lens.proportion.z();
+  const double half = lens.semi_axes().z();
+  EXPECT_NEAR(4 * std::numbers::pi / 3 * lens.semi_axes().prod(), 1e-6, 1e-15);
   EXPECT_NEAR((lens.centre - Vec3(half, 0, 10e-3)).norm(), 0, 1e-6) << "the bone is beside it";
   EXPECT_LT((lens.centre - tip).norm(), half) << "the tip is in it";
   const CompiledJoint with = with_boluses(joint, boluses, Liquid{});
@@ -295,7 +295,7 @@ TEST(Bolus, LiesOnTheBoneThatTheTipTouches) {
         least = std::min(least, with.mesh.vertices[v].x());
       }
   EXPECT_GT(least, 0) << "in the bone";
-  EXPECT_LT(farthest, 1.1 * side * lens.proportion.x()) << "what bone takes of it is not elsewhere";
+  EXPECT_LT(farthest, 1.1 * lens.semi_axes().x()) << "what bone takes of it is not elsewhere";
 }
 
 TEST(InjectedBody, LeavesOutWhatCannotBeSeen) {
