@@ -63,11 +63,10 @@ Vec3 direction_of(const Vec3& way) {
   return way.allFinite() && way.norm() > 0 ? way.normalized() : Vec3::UnitZ();
 }
 
-/// Unit, toward the skin: across what is nearest, skin or bone, since liquid spreads along both.
-/// Between them it turns by 1/distance^2.
-Vec3 across_layers(const CompiledJoint& joint, const Vec3& p) {
+/// Unit, toward the skin, to which `skin` leads: across what is nearest, skin or bone, since liquid
+/// spreads along both. Between them it turns by 1/distance^2.
+Vec3 across_layers(const CompiledJoint& joint, const Vec3& p, const Vec3& skin) {
   constexpr double kOnIt = 1e-6;  // m
-  const Vec3 skin = to_skin(joint, p);
   Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
   for (const Vec3& way : {skin, to_bone(joint, p)})
     if (way.allFinite() && way.norm() > kOnIt)
@@ -118,11 +117,12 @@ BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrou
 /// Unit, in columns: along the fibres, beside them, toward the skin; without fibres across the
 /// layers. A region has one axis for all of its fibres; near the skin they run along it.
 Eigen::Matrix3d axes_at(const CompiledJoint& joint, RegionId region, const Vec3& p, bool& fibrous) {
-  const Vec3 skin = direction_of(to_skin(joint, p));
+  const Vec3 to = to_skin(joint, p);
+  const Vec3 skin = direction_of(to);
   Vec3 along = joint.regions[region].fibre_axis;
   along -= along.dot(skin) * skin;
   fibrous = along.norm() > 0.1;
-  const Vec3 across = fibrous ? skin : across_layers(joint, p);
+  const Vec3 across = fibrous ? skin : across_layers(joint, p, to);
   along = fibrous ? along.normalized() : across.unitOrthogonal();
   Vec3 up = across - across.dot(along) * along;
   up = up.norm() > 1e-3 ? up.normalized() : along.unitOrthogonal();

@@ -72,6 +72,21 @@ CompiledJoint make_cleft(bool twice = false, double rim = 1) {
   return joint;
 }
 
+/// A rectangle of two triangles from middle - u - v to middle + u + v.
+void add_wall(CompiledJoint& joint, const Vec3& middle, const Vec3& u, const Vec3& v,
+              RegionId front, RegionId back) {
+  const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
+  for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+    joint.mesh.vertices.push_back(middle + a * u + b * v);
+  for (const auto& t : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}}) {
+    Interface f;
+    f.vertices = {first + t[0], first + t[1], first + t[2]};
+    f.front = front;
+    f.back = back;
+    joint.mesh.interfaces.push_back(f);
+  }
+}
+
 double flux_between(const CompiledJoint& joint, const std::vector<Vec3>& moved, RegionId front) {
   double volume = 0;
   for (const Interface& f : joint.mesh.interfaces) {
@@ -213,17 +228,8 @@ TEST(Bolus, HasItsVolumeAndPushesEveryWallBesideItByAsMuch) {
 
 TEST(Bolus, IsNotCutByAWallOfLargeTriangles) {
   CompiledJoint joint = make_cleft();
-  // A wall across the bolus's upper half, of two triangles.
-  const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-    joint.mesh.vertices.emplace_back(30e-3 * x, 30e-3 * y, 11e-3);
-  for (const auto& t : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}}) {
-    Interface f;
-    f.vertices = {first + t[0], first + t[1], first + t[2]};
-    f.front = kBelow;
-    f.back = kAbove;
-    joint.mesh.interfaces.push_back(f);
-  }
+  add_wall(joint, 11e-3 * Vec3::UnitZ(), 30e-3 * Vec3::UnitX(), 30e-3 * Vec3::UnitY(), kBelow,
+           kAbove);  // across the bolus's upper half
   const Bolus bolus = make_lens();
   const CompiledJoint with = with_boluses(joint, {bolus}, Liquid{});
   const double scale = std::cbrt(1e-6 / (4 * std::numbers::pi / 3 * bolus.proportion.prod()));
@@ -252,25 +258,12 @@ CompiledJoint make_fat_beside_bone() {
                    {"beyond", 0, Vec3::Zero()},
                    {"fat", 0, Vec3::Zero()},
                    {"bone", 1, Vec3::Zero()}};
-  const auto add = [&joint](const Vec3& middle, const Vec3& u, const Vec3& v, RegionId front,
-                            RegionId back) {
-    const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
-    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-      joint.mesh.vertices.push_back(middle + a * u + b * v);
-    for (const auto& t : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}}) {
-      Interface f;
-      f.vertices = {first + t[0], first + t[1], first + t[2]};
-      f.front = front;
-      f.back = back;
-      joint.mesh.interfaces.push_back(f);
-    }
-  };
   const Vec3 x = 40e-3 * Vec3::UnitX();
   const Vec3 y = 40e-3 * Vec3::UnitY();
   const Vec3 z = 40e-3 * Vec3::UnitZ();
-  add(20e-3 * Vec3::UnitZ(), x, y, kOutside, 2);  // normals out of the fat
-  add(Vec3::Zero(), z, y, 3, 2);
-  add(x, y, z, kOutside, 2);
+  add_wall(joint, 20e-3 * Vec3::UnitZ(), x, y, kOutside, 2);  // normals out of the fat
+  add_wall(joint, Vec3::Zero(), z, y, 3, 2);
+  add_wall(joint, x, y, z, kOutside, 2);
   return joint;
 }
 
