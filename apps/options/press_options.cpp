@@ -114,6 +114,7 @@ nlohmann::json to_json(const Press& press) {
           {"force_n", three(press.contact.force)},
           {"torque_n_mm", three(press.contact.torque / kMillimetre)},
           {"contact_share", press.contact.share},
+          {"short_of_mm", press.short_of / kMillimetre},
           {"settled", press.settled}};
 }
 
@@ -122,6 +123,9 @@ void print_press(const nlohmann::json& press) {
   std::printf("pressed %.2f mm, %.3f N, %.0f %% of the face%s\n", press["depth_mm"].get<double>(),
               press["normal_force_n"].get<double>(), 100 * press["contact_share"].get<double>(),
               press["settled"].get<bool>() ? "" : ", still moving");
+  if (const double left = press["short_of_mm"]; left > 0)
+    std::printf("%.2f mm less than asked for: a face presses with %.0f N at most\n", left,
+                SoftSolverParams{}.most_force);
 }
 
 }  // namespace artus

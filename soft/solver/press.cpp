@@ -32,6 +32,9 @@ Press hold(SoftBody& body, const Pose& X_JP, double depth, Until until) {
     body.solver().refresh();
     for (int k = 0; k < 2; ++k) body.step(press.X_JP, std::numeric_limits<double>::infinity());
   }
+  press.short_of = body.solver().held_off();
+  press.depth -= press.short_of;
+  press.X_JP.translation() -= press.short_of * X_JP.linear().col(2);
   press.contact = body.force_J();
   press.normal_force = -press.contact.force.dot(X_JP.linear().col(2));
   return press;

@@ -11,6 +11,7 @@ struct Press {
   double depth = 0;              ///< m along z from the pose it started at; negative: lifted
   double normal_force = 0;       ///< N on the hand, along -z of P
   ContactForce contact;          ///< frame J
+  double short_of = 0;           ///< m that the hand was to go deeper; SoftSolverParams::most_force
   bool settled = false;          ///< false: something still moved after the steps allowed
 };
 

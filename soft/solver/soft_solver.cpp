@@ -15,8 +15,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int kHalvings = 4;        // of a step that is too long, before it is taken back
-constexpr double kOvershoot = 0.5;  // of the pull that a step takes up may point back at its end
+constexpr int kHalvings = 4;           // of a step that is too long, before it is taken back
+constexpr double kHeldOffShare = 0.5;  // of the way to the greatest force that a step goes
+constexpr double kOvershoot = 0.5;     // of the pull that a step takes up may point back at its end
 
 Eigen::VectorXd root_of(const Eigen::VectorXd& x, const std::vector<std::uint32_t>& root) {
   Eigen::VectorXd part(static_cast<Index>(3 * root.size()));
@@ -41,6 +42,7 @@ void SoftSolver::reset() {
   if (contact_) contact_->release();
   multipliers_.setZero();
   touching_ = false;
+  held_off_ = 0;
   bad_ = 0;
   last_ = {};
   evaluate();
@@ -201,6 +203,26 @@ bool SoftSolver::end_refresh() {
   return true;
 }
 
+/// Where the face may be: short of the hand by what the tissue's stiffness says that it presses too
+/// hard, and back at the hand as the force allows.
+Pose SoftSolver::hold_off(const Pose& hand, std::uint32_t& status) {
+  if (!touching_) held_off_ = 0;
+  const Vec3 into = hand.linear().col(2);
+  const double excess = -contact_->force_at_rest().force.dot(into) - params_.most_force;
+  if (!touching_ || (excess <= 0 && held_off_ == 0)) return hand;
+  const double stiffness = contact_->stiffness_at_rest();
+  const double change = stiffness > 0 ? kHeldOffShare * excess / stiffness : -params_.probe_advance;
+  // No deeper while it presses too hard, however fast the hand is.
+  if (excess > 0)
+    held_off_ = std::max(held_off_, into.dot(hand.translation() - X_CP_.translation()));
+  held_off_ =
+      std::max(0.0, held_off_ + std::clamp(change, -params_.probe_advance, params_.probe_advance));
+  if (held_off_ > 0) status |= kSoftHeldOff;
+  Pose face = hand;
+  face.translation() -= held_off_ * into;
+  return face;
+}
+
 /// The face follows the hand by as much as one step can take in.
 Pose SoftSolver::advance(const Pose& target, std::uint32_t& status) const {
   if (!touching_) return target;
@@ -304,7 +326,7 @@ const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
   double advanced = 0;
   const bool pressed = X_CP && contact_;
   if (pressed) {
-    const Pose next = advance(*X_CP, out.status);
+    const Pose next = advance(hold_off(*X_CP, out.status), out.status);
     const Pose from = touching_ ? X_CP_ : next;
     advanced = (next.translation() - from.translation()).norm();
     contact_->prepare(u_, next, from);
@@ -345,9 +367,11 @@ bool SoftSolver::settle(const std::optional<Pose>& X_CP, double tolerance, int m
   for (int k = 0; k < max_steps; ++k) {
     const bool fresh = refresh();
     const Eigen::VectorXd before = x_;
+    const double held_off = held_off_;
     const SoftStep& s = go(X_CP, share);
     if (!fresh) last_.status |= kSoftNoFactor;
-    if ((s.status & (kSoftLagging | kSoftLimited | kSoftTakenBack)) == 0 &&
+    if (std::abs(held_off_ - held_off) < tolerance &&
+        (s.status & (kSoftLagging | kSoftLimited | kSoftTakenBack)) == 0 &&
         s.largest_move < share * tolerance)
       return true;
     const Eigen::VectorXd offset = x_ - before;

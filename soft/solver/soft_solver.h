@@ -33,6 +33,8 @@ struct SoftSolverParams {
   double step_limit = 0.5e-3;   ///< m a node may move in one step beyond what the face moves
   double probe_advance = 1e-3;  ///< m the face may move in one step; a faster hand is followed late
   double probe_turn = 0.05;     ///< rad the same
+  double most_force = 40;       ///< N that the face presses with at most: what a device's hand gets
+                                ///< at most; a hand that is deeper leaves the face behind
   double min_volume = 0.02;     ///< of any point; a step that squeezes more is halved, at last
                                 ///< taken back
   int bad_steps = 3;            ///< in a row after which the body starts again from rest
@@ -47,6 +49,7 @@ enum SoftStatus : std::uint32_t {
   kSoftRestarted = 8,  ///< back to rest after several such steps
   kSoftOutside = 16,   ///< the face presses where the contact does not reach
   kSoftNoFactor = 32,  ///< the tangent was not positive definite; the one before is used
+  kSoftHeldOff = 64,   ///< the face stays off the hand, which would press with more than most_force
 };
 
 struct SoftStep {
@@ -133,6 +136,8 @@ class SoftSolver {
   [[nodiscard]] FacePress try_press(const Pose& X_CP) const;
   [[nodiscard]] const FaceContact* contact() const noexcept { return contact_.get(); }
   [[nodiscard]] const Pose& face_pose() const noexcept { return X_CP_; }
+  /// How far the face is short of the hand along its z, m; see most_force.
+  [[nodiscard]] double held_off() const noexcept { return held_off_; }
 
   /// Sum of the forces that hold the body, N, frame C, at the present state.
   [[nodiscard]] Vec3 reaction() const;
@@ -152,6 +157,7 @@ class SoftSolver {
   };
   const SoftStep& go(const std::optional<Pose>& X_CP, double alpha);
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
+  [[nodiscard]] Pose hold_off(const Pose& hand, std::uint32_t& status);
   [[nodiscard]] Columns columns_of(const Cholesky& factor) const;
   void hold_constraints(double alpha, Eigen::VectorXd& r);
   void solve_root(bool pressed, double alpha, Eigen::VectorXd& r, Eigen::VectorXd& pull);
@@ -186,6 +192,7 @@ class SoftSolver {
   SoftForces forces_;
   Pose X_CP_ = Pose::Identity();
   bool touching_ = false;  // X_CP_ is where the face was
+  double held_off_ = 0;    // m along the face's z that it is short of the hand
   int bad_ = 0;
   SoftStep last_;
   std::future<bool> pending_;  // the last member: it ends before what it works on

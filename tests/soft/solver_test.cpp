@@ -22,7 +22,7 @@ struct Pressed {
   std::shared_ptr<const SoftModel> model;
   std::unique_ptr<SoftSolver> solver;
 
-  explicit Pressed(double friction = 0) {
+  explicit Pressed(double friction = 0, const SoftSolverParams& params = {}) {
     block.half_x = 24e-3;
     block.half_y = 18e-3;
     block.layers = {{2e-3, linear_material(120e3, kNu)},
@@ -32,7 +32,8 @@ struct Pressed {
         make_block_model(block, 6e-3, {{Vec3(-14e-3, -6e-3, -1), Vec3(14e-3, 6e-3, 6e-3), 3e-3}});
     const SkinPatch skin = make_flat_skin(block, 3e-3);
     solver = std::make_unique<SoftSolver>(
-        model, contact_unknowns(*model, skin, Vec3(-14e-3, -8e-3, -1), Vec3(14e-3, 8e-3, 1)));
+        model, contact_unknowns(*model, skin, Vec3(-14e-3, -8e-3, -1), Vec3(14e-3, 8e-3, 1)),
+        params);
     ProbeFace face;
     face.length = 20e-3;
     face.points_x = 10;
@@ -199,6 +200,48 @@ TEST(SoftSolver, BareFatComesToRestUnderADeepPress) {
   }
 }
 
+SoftSolverParams at_most(double force) {
+  SoftSolverParams params;
+  params.most_force = force;
+  return params;
+}
+
+TEST(SoftSolver, FaceThatWouldPressTooHardStaysOffTheHandAndComesBackToIt) {
+  constexpr double kMost = 0.6;  // N
+  Pressed pressed(0, at_most(kMost));
+  SoftSolver& solver = *pressed.solver;
+  const auto force = [&] {
+    return -solver.last().contact.force.z();
+  };
+  for (const double deep : {6e-3, 12e-3}) {
+    ASSERT_TRUE(solver.settle(face_at(deep))) << deep;
+    EXPECT_NEAR(force(), kMost, 0.03 * kMost) << deep;
+    EXPECT_NE(solver.last().status & kSoftHeldOff, 0U);
+    EXPECT_GT(solver.held_off(), 1e-3);
+    EXPECT_NEAR((solver.face_pose().translation() - Vec3(0, 0, deep - solver.held_off())).norm(), 0,
+                1e-9);
+  }
+  ASSERT_TRUE(solver.settle(face_at(1e-3)));
+  EXPECT_EQ(solver.held_off(), 0);
+  EXPECT_EQ(solver.last().status & kSoftHeldOff, 0U);
+  Pressed other;
+  ASSERT_TRUE(other.solver->settle(face_at(1e-3)));
+  EXPECT_NEAR(force(), -other.solver->last().contact.force.z(), 1e-3 * force());
+}
+
+TEST(SoftSolver, HandThatFallsIntoTheBodyPressesItNoHarder) {
+  constexpr double kMost = 0.6;  // N
+  Pressed pressed(0, at_most(kMost));
+  SoftSolver& solver = *pressed.solver;
+  for (int k = 0; k < 120; ++k) {
+    if (k % 12 == 0) solver.begin_refresh();
+    if (k % 12 == 8) solver.end_refresh();
+    solver.step(face_at(std::min(12e-3, 2e-3 * k)), 1.0 / 80);
+    ASSERT_EQ(solver.last().status & kSoftRestarted, 0U) << k;
+  }
+  EXPECT_NEAR(-solver.last().contact.force.z(), kMost, 0.03 * kMost);
+}
+
 TEST(SoftSolver, FrictionIsAtMostItsShareOfThePressure) {
   Pressed pressed(0.3);
   pressed.solver->settle(face_at(3e-3));
@@ -282,7 +325,7 @@ TEST(SoftSolver, TissueBeforeACreepingNeedleDoesNotGoToAndFro) {
 
 TEST(SoftSolver, ComplianceIsSymmetric) {
   Pressed pressed;
-  pressed.solver->settle(face_at(2e-3));
+  pressed.solver->settle(face_at(1e-3));
   const auto at = [&](const Vec3& load, const Vec3& seen) {
     Eigen::VectorXd x =
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pressed.model->n_unknowns()));
