@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "artus/detail/haptics/needle/needle_model.h"
@@ -44,6 +45,12 @@ class InjectionOperator {
   /// Looks at the last tick; begins the next phase when the present one's goal is met. Returns the
   /// phase that ended in this call, or null.
   const OperatorPhase* observe(double time, const Pose& X_JN, const OperatorView& view) noexcept;
+  /// From here on along another line through the entry point, to its depths. Requires: a unit
+  /// direction, as many phases, a needle that is still outside.
+  void aim_along(const Vec3& direction, std::vector<OperatorPhase> phases) noexcept {
+    first_direction_ = direction_ = turn_from_ = direction;
+    phases_ = std::move(phases);
+  }
   /// From the first phase on, with the needle at its start again.
   void begin_again(double time) noexcept;
 

@@ -100,17 +100,19 @@ void keep_best_seen(const Scene& scene, ViewSearch search, std::size_t n,
 }  // namespace
 
 std::optional<LineLayer> find_layer(const Scene& scene, const Vec3& entry, const Vec3& direction,
-                                    RegionId region) {
+                                    RegionId region, std::optional<double> wanted) {
   const double before = kStartOutside;
+  std::optional<LineLayer> roomy;
   std::optional<LineLayer> widest;
   for (const TissueInterval& s :
        tissue_intervals(scene, {entry - before * direction, entry + kSearch * direction})) {
     if (s.region != region) continue;
-    if (s.exit - s.entry > kEnough) return LineLayer{s.entry - before, s.exit - before};
-    if (!widest || s.exit - s.entry > widest->to - widest->from)
-      widest = LineLayer{s.entry - before, s.exit - before};
+    const LineLayer layer{s.entry - before, s.exit - before};
+    if (wanted && *wanted >= layer.from && *wanted <= layer.to) return layer;
+    if (!roomy && layer.to - layer.from > kEnough) roomy = layer;
+    if (!widest || layer.to - layer.from > widest->to - widest->from) widest = layer;
   }
-  return widest;
+  return roomy ? roomy : widest;
 }
 
 Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region) {

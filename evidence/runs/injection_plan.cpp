@@ -2,12 +2,17 @@
 #include "artus/detail/evidence/runs/injection_plan.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 namespace artus {
 namespace {
 
 constexpr double kOnBone = 0.3e-3;       // m that a hand presses the tip onto bone by; assumed
+constexpr double kTurn = 4e-3;           // rad between the lines that are tried for a pressed body
+constexpr int kTurns = 40;               // to each side
 constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 
 double middle_of(const LineLayer& layer) {
@@ -59,6 +64,18 @@ RegionId region_on_bone(const Scene& scene, const InjectionSpec& spec) {
   return before;
 }
 
+/// m along the line that must be in the layer; none: where there is room.
+std::optional<double> point_in(const LinePlan& plan) {
+  return plan.by_name ? std::nullopt : std::optional(plan.wanted);
+}
+
+bool meets_bone(const Scene& scene, const Segment& path) {
+  const auto met = tissue_intervals(scene, path);
+  return std::any_of(met.begin(), met.end(), [&](const TissueInterval& s) {
+    return s.region >= kFirstRegion && scene.joint().tissue_of(s.region).haptic.hard;
+  });
+}
+
 }  // namespace
 
 bool is_firm(const Tissue& tissue) {
@@ -85,7 +102,7 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
     return fail(ErrorCode::invalid, "the target lies outside of the meshed body", spec.name);
   plan.on_bone = scene.joint().tissue_of(plan.region).haptic.hard;
   if (plan.on_bone) plan.region = region_on_bone(scene, spec);
-  const auto layer = find_layer(scene, spec.entry, plan.direction, plan.region);
+  const auto layer = find_layer(scene, spec.entry, plan.direction, plan.region, point_in(plan));
   if (!layer)
     return fail(ErrorCode::invalid,
                 "the line does not meet '" + scene.joint().regions[plan.region].name + "'",
@@ -93,6 +110,36 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
   plan.layer = *layer;
   plan.solid = kind_of(plan.region, *spaces) == SpaceKind::solid;
   return plan;
+}
+
+LinePlan plan_again(const Scene& now, const Vec3& entry, const Vec3& across, const LinePlan& plan) {
+  const auto layer_along = [&](const Vec3& direction) {
+    const auto layer = find_layer(now, entry, direction, plan.region, point_in(plan));
+    return layer && !meets_bone(now, {entry, entry + layer->from * direction}) ? layer
+                                                                               : std::nullopt;
+  };
+  const double rest = plan.layer.to - plan.layer.from;
+  const auto planned = layer_along(plan.direction);
+  if (planned && planned->to - planned->from >= rest / 2) return plan;
+  std::vector<LinePlan> meet;
+  std::vector<double> angles;
+  for (int k = -kTurns; k <= kTurns; ++k) {
+    LinePlan turned = plan;
+    turned.direction = Eigen::AngleAxisd(k * kTurn, across) * plan.direction;
+    const auto layer = layer_along(turned.direction);
+    if (!layer) continue;
+    turned.layer = *layer;
+    turned.wanted = stop_in(plan, *layer, 0);
+    meet.push_back(turned);
+    angles.push_back(k * kTurn);
+  }
+  if (meet.empty()) return plan;
+  const double middle =
+      std::accumulate(angles.begin(), angles.end(), 0.0) / static_cast<double>(angles.size());
+  const auto nearest = std::min_element(angles.begin(), angles.end(), [&](double a, double b) {
+    return std::abs(a - middle) < std::abs(b - middle);
+  });
+  return meet[static_cast<std::size_t>(nearest - angles.begin())];
 }
 
 double stop_in(const LinePlan& plan, const LineLayer& now, double opening) {

@@ -27,6 +27,12 @@ struct LinePlan {
 /// of the meshed body, a line that does not meet the structure).
 [[nodiscard]] Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec);
 
+/// The plan in a body that gave way, `now`: where a press has moved what was meant off the line,
+/// the middle one of the lines through the same point, turned about `across`, that meet it, and no
+/// bone before. The plan itself where its line still has half as much of it, or none meets it.
+[[nodiscard]] LinePlan plan_again(const Scene& now, const Vec3& entry, const Vec3& across,
+                                  const LinePlan& plan);
+
 /// m along the line where the tip stops, the bevel's opening (m) in the layer as it is now: by
 /// `now`, the plan's own at rest.
 [[nodiscard]] double stop_in(const LinePlan& plan, const LineLayer& now, double opening);

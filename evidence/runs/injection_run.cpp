@@ -115,6 +115,14 @@ std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& l
   return phases;
 }
 
+/// The phases along a plan's line in the body as it is.
+std::vector<OperatorPhase> phases_in(const Scene& scene, const InjectionRun& run,
+                                     const LinePlan& plan, const JointSpaces& spaces) {
+  return phases_of(run, plan.layer,
+                   stop_in(plan, plan.layer, bevel_length(run.plunger.needle.outer_diameter)),
+                   beyond(scene, run, plan.layer, plan.direction, spaces));
+}
+
 /// Everything that one injection runs on.
 class Trial {
  public:
@@ -145,7 +153,8 @@ class Trial {
       if (!simulation_.refusal().empty())
         return fail(ErrorCode::invalid, simulation_.refusal(), simulation_.joint().name);
       record(t, measured, tick, person);
-      person.observe(t, measured, view());
+      const OperatorPhase* ended = person.observe(t, measured, view());
+      if (ended != nullptr && ended->label == "ready") aim_again(person);
       hands_.move(person);
     }
     return {};
@@ -181,10 +190,11 @@ class Trial {
     if (out_.pressed && spec_.press == 0) out_.pressed->X_JP = out_.X_JP;  // a probe that hovers
   }
 
-  /// `space`: of the plan's region.
-  void aim_at(const LinePlan& plan, std::size_t space) {
+  /// `spaces`: of the scene, outlive this.
+  void aim_at(const LinePlan& plan, const JointSpaces& spaces) {
     plan_ = plan;
-    target_ = space;
+    spaces_ = &spaces;
+    target_ = spaces.of_region[plan.region];
     out_.target = plunger().spaces()[target_].name;
     out_.target_like = plunger().spaces()[target_].like;
     out_.holds = plunger().spaces()[target_].law.rupture;
@@ -230,6 +240,17 @@ class Trial {
     view.flows = flows_into_target();
     view.given = hands_.thumb().enough();
     return view;
+  }
+
+  /// A probe that presses may move a thin bursa off the line: the needle is turned to where the
+  /// picture shows it before it goes in.
+  void aim_again(InjectionOperator& person) {
+    if (!probe_) return;
+    const Scene& seen = *simulation_.scene();
+    const LinePlan plan = plan_again(seen, spec_.entry, out_.X_JP.linear().col(1), plan_);
+    if (plan.direction == plan_.direction) return;
+    plan_ = plan;
+    person.aim_along(plan.direction, phases_in(seen, out_, plan, *spaces_));
   }
 
   /// Tissue that is pressed or opened has its layers elsewhere: a picture tells by how much deeper
@@ -336,6 +357,7 @@ class Trial {
   SimulatedHands hands_;
   std::optional<SeatedProbe> probe_;  // empty: the body is rigid
   double bevel_;                      // m
+  const JointSpaces* spaces_ = nullptr;
   std::size_t target_ = 0;
   LinePlan plan_;
   std::shared_ptr<const Scene> body_;  // last looked at
@@ -408,11 +430,10 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   const Vec3& direction = plan->direction;
   const Pose X_JN = make_pose(spec.entry + target * direction, direction, Vec3::Zero());
   out.X_JP = find_view_of(scene, X_JN, spec.transducer.width).X_JP;
-  const double through = beyond(scene, out, plan->layer, direction, *spaces);
   InjectionOperator person(spec.entry, direction, -kStartOutside,
-                           phases_of(out, plan->layer, target, through));
+                           phases_in(scene, out, *plan, *spaces));
   Trial trial(scene, *params, out, recording);
-  trial.aim_at(*plan, spaces->of_region[plan->region]);
+  trial.aim_at(*plan, *spaces);
   ARTUS_TRY(trial.run(person));
   trial.finish();
   return out;

@@ -115,10 +115,11 @@ struct LineLayer {
   double from = 0;
   double to = 0;
 };
-/// The first stretch of the line from `entry` along `direction` in `region` with room for a tip, or
-/// the widest; none when it does not meet it.
+/// The stretch of the line from `entry` along `direction` in `region` in which `wanted` (m) is, or
+/// the first with room for a tip, or the widest; none when it does not meet it.
 [[nodiscard]] std::optional<LineLayer> find_layer(const Scene& scene, const Vec3& entry,
-                                                  const Vec3& direction, RegionId region);
+                                                  const Vec3& direction, RegionId region,
+                                                  std::optional<double> wanted = {});
 
 /// A line from the skin into `region`, short and without bone, nerve or vessel on its way, its
 /// target where the region is thick; of those that are nearly as good the one that a probe sees

@@ -51,6 +51,53 @@ TEST(InjectionPlan, ABursaOnTheLineIsMeantAndHasTheBevelInIt) {
   EXPECT_FALSE(plan_line(*scene, spec));
 }
 
+/// A line into one side of a shell, and out of the other.
+TEST(InjectionPlan, TheStretchThatTheTargetIsInIsMeant) {
+  const std::vector<SphereLayer> spheres{{"muscle", 40e-3}, {"bursa", 20e-3}, {"tendon", 18e-3}};
+  const Scene scene(std::make_shared<const CompiledJoint>(test::make_nested_spheres(spheres)));
+  InjectionSpec spec;
+  spec.entry = Vec3(0, 0, -40e-3);
+  spec.volume = 1e-6;
+  spec.rate = 0.2e-6;
+  for (const double z : {-19e-3, 19e-3}) {
+    spec.target = Vec3(0, 0, z);
+    const auto plan = plan_line(scene, spec);
+    ASSERT_TRUE(plan);
+    EXPECT_NEAR(plan->layer.from, 40e-3 + z - 1e-3, 0.3e-3);
+    EXPECT_NEAR(plan->layer.to, 40e-3 + z + 1e-3, 0.3e-3);
+  }
+}
+
+Scene bursa_at(const Vec3& centre) {
+  return Scene(std::make_shared<const CompiledJoint>(test::make_block_with_sphere(
+      {"fat", Vec3(0.1, 0.1, 0.05), Vec3::Zero(), "bursa", centre, 2e-3, 4})));
+}
+
+TEST(InjectionPlan, ABursaThatIsPressedOffTheLineIsAimedAtAgain) {
+  const Scene rest = bursa_at({0, 0, 8e-3});
+  InjectionSpec spec;
+  spec.entry = Vec3(-20e-3, 0, 0);
+  spec.target = Vec3(0, 0, 8e-3);
+  spec.volume = 1e-6;
+  spec.rate = 0.2e-6;
+  const auto plan = plan_line(rest, spec);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan_again(rest, spec.entry, Vec3::UnitY(), *plan).direction, plan->direction);
+  const Scene beside = bursa_at({0, 0, 8.5e-3});
+  EXPECT_EQ(plan_again(beside, spec.entry, Vec3::UnitY(), *plan).direction, plan->direction)
+      << "the line still meets it well";
+  for (const double z : {10.5e-3, 5.5e-3}) {
+    const Vec3 centre(0, 0, z);
+    const LinePlan again = plan_again(bursa_at(centre), spec.entry, Vec3::UnitY(), *plan);
+    const Vec3 to_centre = centre - spec.entry;
+    EXPECT_LT(again.direction.cross(to_centre).norm(), 0.6e-3) << "through the middle";
+    EXPECT_NEAR((again.layer.from + again.layer.to) / 2, to_centre.norm(), 0.2e-3);
+    EXPECT_NEAR(stop_in(again, again.layer, 1e-3), to_centre.norm(), 0.7e-3);
+  }
+  const Scene away = bursa_at({0, 0, 40e-3});
+  EXPECT_EQ(plan_again(away, spec.entry, Vec3::UnitY(), *plan).direction, plan->direction);
+}
+
 TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {
   const auto scene = shoulder_like();
   const auto bursa = run_injection(*scene, spec_into(*scene, "bursa", 0.5e-6));
