@@ -131,22 +131,29 @@ class Examination {
     const double margin = wide.radius == 0 ? kMargin : 0;
     wide.width += 2 * margin;
     const LabelRenderer renderer(wide, settings);
-    const auto layout_of = [&](const Scene& scene, const std::vector<bool>& liquid, double aside) {
+    const auto labels_of = [&](const Scene& scene, const std::vector<bool>& liquid, double aside) {
       Pose X_JS = X_JP;
       X_JS.translation() += aside * X_JP.linear().col(1);
       LabelImage labels = renderer.render(scene, X_JS);
       const std::vector<std::string> injected{"injected"};
       join_liquid(labels, liquid, regions_named(scene.joint(), injected));
+      return labels;
+    };
+    const auto shown_in = [&](const LabelImage& labels) {
       const auto pixels = static_cast<int>(margin / kLabelPixel);
       const auto deep = static_cast<int>(kMargin / kLabelPixel);
       return find_layout(labels, {pixels, labels.width - pixels, 0, labels.height - deep},
                          kMinPiece);
     };
-    RegionLayout before = layout_of(*q_.before, liquid_before_, 0);
-    for (const double aside : {-kAside, kAside})
-      before.add(layout_of(*q_.before, liquid_before_, aside));
-    return compare_layouts(before, layout_of(*q_.after, liquid_after_, 0), now_,
-                           regions_named(now_, q_.liquid.parted));
+    RegionLayout before;
+    for (const double aside : {-kAside, 0.0, kAside}) {
+      const LabelImage labels = labels_of(*q_.before, liquid_before_, aside);
+      before.add(shown_in(labels));
+      // Those that touch below or beside the picture may be moved into it.
+      before.add_contacts(find_layout(labels, {0, labels.width, 0, labels.height}, kMinPiece));
+    }
+    const RegionLayout after = shown_in(labels_of(*q_.after, liquid_after_, 0));
+    return compare_layouts(before, after, now_, regions_named(now_, q_.liquid.parted));
   }
 
   [[nodiscard]] HealthMeasure strips() const {

@@ -81,6 +81,10 @@ void join_liquid(LabelImage& labels, const std::vector<bool>& liquid,
 
 void RegionLayout::add(const RegionLayout& other) {
   for (const auto& [region, n] : other.pieces) pieces[region] = std::max(pieces[region], n);
+  add_contacts(other);
+}
+
+void RegionLayout::add_contacts(const RegionLayout& other) {
   for (const auto& [pair, length] : other.contacts)
     contacts[pair] = std::max(contacts[pair], length);
 }

@@ -38,6 +38,8 @@ struct RegionLayout {
 
   /// Takes up what there is more of in another: a picture's neighbour, from which tissue may come.
   void add(const RegionLayout& other);
+  /// The same of who touches whom alone.
+  void add_contacts(const RegionLayout& other);
 };
 
 /// Pieces that have at least `min_area` m^2 in the window, and who touches whom in it. Cost:

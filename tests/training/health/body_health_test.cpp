@@ -117,6 +117,12 @@ TEST(BodyHealth, PicturesOfColumnsDisplacedAgainstEachOtherHaveStrips) {
   EXPECT_TRUE(whole.at("strips_percent").holds()) << to_text(whole);
 }
 
+TEST(BodyHealth, WhatTouchesBelowThePictureMayBeLiftedIntoIt) {
+  HealthQuestion q = question(lifted(lens));
+  q.settings.depth = 20e-3;  // the bursa's roof lies half a millimetre deeper
+  EXPECT_THAT(failures(q), IsEmpty());
+}
+
 TEST(BodyHealth, ABodyWithoutLiquidIsComparedAllTheSame) {
   HealthQuestion q = question(layers());
   q.liquid = {};
