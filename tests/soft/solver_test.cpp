@@ -10,43 +10,14 @@
 #include "artus/detail/core/noise.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
+#include "tests/soft/pressed_block.h"
 
 namespace artus {
 namespace {
 
-constexpr double kNu = 0.47;
-
-/// A small layered block with a face that is pressed on it.
-struct Pressed {
-  SoftBlock block;
-  std::shared_ptr<const SoftModel> model;
-  std::unique_ptr<SoftSolver> solver;
-
-  explicit Pressed(double friction = 0, const SoftSolverParams& params = {}) {
-    block.half_x = 24e-3;
-    block.half_y = 18e-3;
-    block.layers = {{2e-3, linear_material(120e3, kNu)},
-                    {6e-3, linear_material(3e3, kNu)},
-                    {10e-3, linear_material(12e3, kNu)}};
-    model =
-        make_block_model(block, 6e-3, {{Vec3(-14e-3, -6e-3, -1), Vec3(14e-3, 6e-3, 6e-3), 3e-3}});
-    const SkinPatch skin = make_flat_skin(block, 3e-3);
-    solver = std::make_unique<SoftSolver>(
-        model, contact_unknowns(*model, skin, Vec3(-14e-3, -8e-3, -1), Vec3(14e-3, 8e-3, 1)),
-        params);
-    ProbeFace face;
-    face.length = 20e-3;
-    face.points_x = 10;
-    face.friction = friction;
-    solver->set_face(skin, face);
-  }
-};
-
-Pose face_at(double depth) {
-  Pose pose = Pose::Identity();
-  pose.translation().z() = depth;
-  return pose;
-}
+using test::face_at;
+using test::kNu;
+using test::Pressed;
 
 TEST(SoftModel, PatchUnderALinearFieldHasThatFieldInside) {
   SoftBlock block;
@@ -198,48 +169,6 @@ TEST(SoftSolver, BareFatComesToRestUnderADeepPress) {
     EXPECT_GT(force, before) << mm;
     before = force;
   }
-}
-
-SoftSolverParams at_most(double force) {
-  SoftSolverParams params;
-  params.most_force = force;
-  return params;
-}
-
-TEST(SoftSolver, FaceThatWouldPressTooHardStaysOffTheHandAndComesBackToIt) {
-  constexpr double kMost = 0.6;  // N
-  Pressed pressed(0, at_most(kMost));
-  SoftSolver& solver = *pressed.solver;
-  const auto force = [&] {
-    return -solver.last().contact.force.z();
-  };
-  for (const double deep : {6e-3, 12e-3}) {
-    ASSERT_TRUE(solver.settle(face_at(deep))) << deep;
-    EXPECT_NEAR(force(), kMost, 0.03 * kMost) << deep;
-    EXPECT_NE(solver.last().status & kSoftHeldOff, 0U);
-    EXPECT_GT(solver.held_off(), 1e-3);
-    EXPECT_NEAR((solver.face_pose().translation() - Vec3(0, 0, deep - solver.held_off())).norm(), 0,
-                1e-9);
-  }
-  ASSERT_TRUE(solver.settle(face_at(1e-3)));
-  EXPECT_EQ(solver.held_off(), 0);
-  EXPECT_EQ(solver.last().status & kSoftHeldOff, 0U);
-  Pressed other;
-  ASSERT_TRUE(other.solver->settle(face_at(1e-3)));
-  EXPECT_NEAR(force(), -other.solver->last().contact.force.z(), 1e-3 * force());
-}
-
-TEST(SoftSolver, HandThatFallsIntoTheBodyPressesItNoHarder) {
-  constexpr double kMost = 0.6;  // N
-  Pressed pressed(0, at_most(kMost));
-  SoftSolver& solver = *pressed.solver;
-  for (int k = 0; k < 120; ++k) {
-    if (k % 12 == 0) solver.begin_refresh();
-    if (k % 12 == 8) solver.end_refresh();
-    solver.step(face_at(std::min(12e-3, 2e-3 * k)), 1.0 / 80);
-    ASSERT_EQ(solver.last().status & kSoftRestarted, 0U) << k;
-  }
-  EXPECT_NEAR(-solver.last().contact.force.z(), kMost, 0.03 * kMost);
 }
 
 TEST(SoftSolver, FrictionIsAtMostItsShareOfThePressure) {
