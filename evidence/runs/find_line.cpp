@@ -19,12 +19,6 @@ constexpr double kDeep = 30e-3;        // m of tissue before the tip that cost a
 constexpr std::size_t kLookedAt = 16;  // lines at most whose view is searched closely
 constexpr double kFace = 38e-3;        // m, of a linear probe
 
-bool forbidden(const CompiledJoint& joint, RegionId region) {
-  const Tissue& tissue = joint.tissue_of(region);
-  return is_firm(tissue) || tissue.name == "nerve" || tissue.name == "artery" ||
-         tissue.name == "vein";
-}
-
 /// Where a line from outside comes to `point` along `direction`: the skin; none where the way is
 /// not free.
 std::optional<Vec3> free_entry(const Scene& scene, const Vec3& point, const Vec3& direction) {
@@ -36,7 +30,7 @@ std::optional<Vec3> free_entry(const Scene& scene, const Vec3& point, const Vec3
       entry = start + s.exit * direction;
       continue;
     }
-    if (s.region == kBeyond || forbidden(scene.joint(), s.region)) return std::nullopt;
+    if (s.region == kBeyond || bars_way(scene.joint().tissue_of(s.region))) return std::nullopt;
   }
   return entry;
 }

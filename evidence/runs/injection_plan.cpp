@@ -69,10 +69,10 @@ std::optional<double> point_in(const LinePlan& plan) {
   return plan.by_name ? std::nullopt : std::optional(plan.wanted);
 }
 
-bool meets_bone(const Scene& scene, const Segment& path) {
+bool is_free(const Scene& scene, const Segment& path) {
   const auto met = tissue_intervals(scene, path);
-  return std::any_of(met.begin(), met.end(), [&](const TissueInterval& s) {
-    return s.region >= kFirstRegion && scene.joint().tissue_of(s.region).haptic.hard;
+  return std::none_of(met.begin(), met.end(), [&](const TissueInterval& s) {
+    return s.region >= kFirstRegion && bars_way(scene.joint().tissue_of(s.region));
   });
 }
 
@@ -80,6 +80,11 @@ bool meets_bone(const Scene& scene, const Segment& path) {
 
 bool is_firm(const Tissue& tissue) {
   return tissue.haptic.hard || tissue.name == "cartilage" || tissue.name == "labrum";
+}
+
+bool bars_way(const Tissue& tissue) {
+  return is_firm(tissue) || tissue.name == "nerve" || tissue.name == "artery" ||
+         tissue.name == "vein";
 }
 
 Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
@@ -114,9 +119,7 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
 
 LinePlan plan_again(const Scene& now, const Vec3& entry, const Vec3& across, const LinePlan& plan) {
   const auto layer_along = [&](const Vec3& direction) {
-    const auto layer = find_layer(now, entry, direction, plan.region, point_in(plan));
-    return layer && !meets_bone(now, {entry, entry + layer->from * direction}) ? layer
-                                                                               : std::nullopt;
+    return find_layer(now, entry, direction, plan.region, point_in(plan));
   };
   const double rest = plan.layer.to - plan.layer.from;
   const auto planned = layer_along(plan.direction);
@@ -127,7 +130,7 @@ LinePlan plan_again(const Scene& now, const Vec3& entry, const Vec3& across, con
     LinePlan turned = plan;
     turned.direction = Eigen::AngleAxisd(k * kTurn, across) * plan.direction;
     const auto layer = layer_along(turned.direction);
-    if (!layer) continue;
+    if (!layer || !is_free(now, {entry, entry + layer->from * turned.direction})) continue;
     turned.layer = *layer;
     turned.wanted = stop_in(plan, *layer, 0);
     meet.push_back(turned);

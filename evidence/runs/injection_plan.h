@@ -10,6 +10,9 @@ namespace artus {
 /// Whether liquid does not part it: bone, cartilage, labrum.
 [[nodiscard]] bool is_firm(const Tissue& tissue);
 
+/// Whether no needle goes through it on its way: bone and its cartilage, nerves and vessels.
+[[nodiscard]] bool bars_way(const Tissue& tissue);
+
 /// What lies on the line of an injection.
 struct LinePlan {
   Vec3 direction = Vec3::UnitZ();
