@@ -42,6 +42,7 @@ py::dict press(const Joint& joint, const std::optional<Numbers>& probe, std::opt
   out["force_J"] = array_of(how.contact.force);
   out["torque_J"] = array_of(how.contact.torque);
   out["contact_share"] = how.contact.share;
+  out["short_of"] = how.short_of;
   out["settled"] = how.settled;
   return out;
 }
@@ -54,7 +55,8 @@ void add_presses(py::module_& module) {
       py::arg("depth") = py::none(), py::arg("force") = py::none(),
       py::arg("transducer") = "linear-6-18",
       "Press a probe from (4, 4) m on the skin by `depth` m or with `force` N: a dict of the "
-      "joint as it then lies, the probe's pose there, and the force on the hand. `transducer` "
+      "joint as it then lies, the probe's pose there, and the force on the hand. A face presses "
+      "with 40 N at most: `short_of` says how much deeper it was to go, m. `transducer` "
       "says how long the face is; a curved one raises.");
 }
 

@@ -253,6 +253,7 @@ def test_the_surfaces_of_a_joint_compile_from_arrays_as_from_files(source, bundl
 
 def test_a_press_moves_the_picture_and_pushes_back(joint, renderer):
     pressed = artus.press(joint, depth=2e-3)
+    assert pressed["short_of"] == 0
     assert pressed["settled"] and pressed["depth"] == 2e-3
     assert 0.05 < pressed["force"] < 20
     z = joint.probe[:3, 2]
@@ -267,6 +268,9 @@ def test_a_press_moves_the_picture_and_pushes_back(joint, renderer):
     muscle = joint.regions.index("muscle")
     thickness = [(r[:, r.shape[1] // 2] == muscle).sum() for r in (before, after)]
     assert thickness[1] < thickness[0] - 2  # pixels of 0.1 mm
+    deepest = artus.press(joint, depth=25e-3)
+    assert 38 < deepest["force"] < 42 and deepest["short_of"] > 0
+    assert deepest["depth"] + deepest["short_of"] == pytest.approx(25e-3)
     shorter = artus.press(joint, depth=2e-3, transducer="hockey-7-15")
     assert shorter["force"] != pressed["force"]
     with pytest.raises(Exception, match="only a straight probe"):
