@@ -31,8 +31,9 @@ struct LinePlan {
 [[nodiscard]] Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec);
 
 /// The plan in a body that gave way, `now`: where a press has moved what was meant off the line,
-/// the middle one of the lines through the same point, turned about `across`, that meet it, and no
-/// bone before. The plan itself where its line still has half as much of it, or none meets it.
+/// the middle one of the lines through the same point, turned about `across`, that meet it with
+/// nothing before that bars the way. The plan itself where its line still has half as much of it,
+/// or none meets it. Cost: some hundred lines through the scene.
 [[nodiscard]] LinePlan plan_again(const Scene& now, const Vec3& entry, const Vec3& across,
                                   const LinePlan& plan);
 
