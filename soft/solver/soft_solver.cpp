@@ -39,10 +39,8 @@ SoftSolver::SoftSolver(std::shared_ptr<const SoftModel> model,
 
 void SoftSolver::reset() {
   x_ = Eigen::VectorXd::Zero(static_cast<Index>(3 * model_->n_unknowns()));
-  if (contact_) contact_->release();
+  lift_face();
   multipliers_.setZero();
-  touching_ = false;
-  held_off_ = 0;
   bad_ = 0;
   last_ = {};
   evaluate();
@@ -56,8 +54,7 @@ bool SoftSolver::place(std::span<const Vec3> displacements) {
   const auto unknown = model_->unknown_nodes();
   for (std::size_t i = 0; i < unknown.size(); ++i)
     x_.segment<3>(static_cast<Index>(3 * i)) = displacements[unknown[i]];
-  if (contact_) contact_->release();
-  touching_ = false;
+  lift_face();
   bad_ = 0;
   last_ = {};
   evaluate();
@@ -74,7 +71,7 @@ void SoftSolver::go_on_from(std::span<const Vec3> displacements) {
 
 void SoftSolver::set_face(SkinPatch skin, const ProbeFace& face) {
   contact_ = std::make_unique<FaceContact>(model_, std::move(skin), face, root_);
-  touching_ = false;
+  lift_face();
 }
 
 void SoftSolver::set_skin_lifts(std::vector<Vec3> lifts) {
@@ -203,13 +200,19 @@ bool SoftSolver::end_refresh() {
   return true;
 }
 
+void SoftSolver::lift_face() noexcept {
+  if (contact_) contact_->release();
+  touching_ = false;
+  held_off_ = 0;
+}
+
 /// Where the face may be: short of the hand by what the tissue's stiffness says that it presses too
 /// hard, and back at the hand as the force allows.
 Pose SoftSolver::hold_off(const Pose& hand, std::uint32_t& status) {
-  if (!touching_) held_off_ = 0;
+  if (!touching_) return hand;
   const Vec3 into = hand.linear().col(2);
   const double excess = -contact_->force_at_rest().force.dot(into) - params_.most_force;
-  if (!touching_ || (excess <= 0 && held_off_ == 0)) return hand;
+  if (excess <= 0 && held_off_ == 0) return hand;
   const double stiffness = contact_->stiffness_at_rest();
   const double change = stiffness > 0 ? kHeldOffShare * excess / stiffness : -params_.probe_advance;
   // No deeper while it presses too hard, however fast the hand is.
@@ -335,8 +338,7 @@ const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
     X_CP_ = next;
     touching_ = true;
   } else {
-    if (contact_) contact_->release();
-    touching_ = false;
+    lift_face();
   }
   hold_constraints(alpha, r);
   out.residual = r.norm();

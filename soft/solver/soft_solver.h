@@ -158,6 +158,7 @@ class SoftSolver {
   const SoftStep& go(const std::optional<Pose>& X_CP, double alpha);
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
   [[nodiscard]] Pose hold_off(const Pose& hand, std::uint32_t& status);
+  void lift_face() noexcept;
   [[nodiscard]] Columns columns_of(const Cholesky& factor) const;
   void hold_constraints(double alpha, Eigen::VectorXd& r);
   void solve_root(bool pressed, double alpha, Eigen::VectorXd& r, Eigen::VectorXd& pull);
