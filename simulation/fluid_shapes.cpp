@@ -21,7 +21,8 @@ constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least
 constexpr double kLeastKept = 0.8;   // of a volume, by a press; less is not made up for
 constexpr double kNearlyMost = 0.999;
 constexpr double kMissed = 5e-3;         // of a volume, by which a shape may be wrong
-constexpr int kMostInARow = 4;           // shapes for that; what is missed then stays so
+constexpr int kMostInARow = 4;           // shapes for that, one after the other
+constexpr std::uint64_t kLater = 10;     // times what a shape takes, until it is asked again then
 constexpr double kStill = 1e-12;         // m^3 from image to image, of liquid that rests
 constexpr double kGrowth = 0.03;         // of what is there: 0.1 mm of a bursa that is 10 mm open
 constexpr double kPressForce = 0.05;     // N by which a press is another
@@ -61,7 +62,13 @@ double volume_of(const std::vector<Injected>& places) {
   return volume;
 }
 
-FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
+/// Times what was given that a shape is to be opened by, for `tissue` to leave all of it.
+double more_for(const FluidShape& shape, const CompiledJoint& rest, const DeformedBody& tissue) {
+  return 1 / std::max(kLeastKept, kept_volume(*shape.joint, rest, tissue));
+}
+
+/// `more`: times what was given that spaces are opened by.
+FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places, double more,
                       const Liquid& liquid, const std::shared_ptr<const DeformedBody>& tissue,
                       std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
@@ -72,7 +79,6 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
     return !past.contact.pieces.empty();
   });
   if (tissue && pressed) stress = FaceStress(tissue, std::move(contacts));
-  const double more = before != nullptr && tissue ? before->more : 1;
   for (Injected& place : places) place.more = more;
   shape.joint = std::make_shared<const CompiledJoint>(
       with_injected(opened.joint(), places, liquid, stress, opened));
@@ -81,12 +87,11 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places,
     return shape;
   }
   shape.made = more;
-  const double kept = kept_volume(*shape.joint, opened.joint(), *tissue);
-  shape.more = 1 / std::max(kLeastKept, kept);
   // What a press drives out is elsewhere in the space.
   if (more >= kNearlyMost / kLeastKept)
     shape.liquid.left_out +=
-        std::max(0.0, 1 - kept * more) * (shape.liquid.given - shape.liquid.left_out);
+        std::max(0.0, 1 - kept_volume(*shape.joint, opened.joint(), *tissue) * more) *
+        (shape.liquid.given - shape.liquid.left_out);
   shape.map = map_of(*shape.joint, *tissue, before);
   return shape;
 }
@@ -103,10 +108,6 @@ std::vector<Injected> injected_of(const CompiledJoint& joint, const JointSpaces&
            Vec3(site.p_J[0], site.p_J[1], site.p_J[2]),
            pressure_of(spaces.spaces[spaces.of_region[site.region]].law, site.volume)});
   return injected;
-}
-
-bool FluidShape::misses_volume() const noexcept {
-  return std::abs(more / made - 1) > kMissed;
 }
 
 FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
@@ -175,14 +176,20 @@ bool FluidShapes::is_at_rest(std::span<const InjectedSite> sites) const {
 
 /// Another shape of the same vertices is gone over into; what has others is there at once.
 void FluidShapes::take() {
-  std::shared_ptr<const FluidShape> before = std::move(state_.shape);
-  state_ = {std::make_shared<const FluidShape>(next_.get()), nullptr, 1};
+  const std::shared_ptr<const FluidShape> before = std::move(state_.shape);
+  const Made made = next_.get();
+  state_ = {made.shape, nullptr, 1, made.kept};
+  more_ = made.more;
   taken_ = images_;
+  if (made.shape == before) {
+    made_up_ = 0;
+    return;
+  }
   const bool alike =
-      before && before->map && state_.shape->map &&
-      before->joint->mesh.vertices.size() == state_.shape->joint->mesh.vertices.size() &&
-      before->joint->regions.size() == state_.shape->joint->regions.size();
-  if (alike) state_.before = std::move(before);
+      before && before->map && made.shape->map &&
+      before->joint->mesh.vertices.size() == made.shape->joint->mesh.vertices.size() &&
+      before->joint->regions.size() == made.shape->joint->regions.size();
+  if (alike) state_.before = before;
 }
 
 const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
@@ -197,7 +204,7 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
   if (next_.valid() && images_ >= due_) take();
   if (state_.before) {
     state_.part = static_cast<double>(images_ - taken_ + 1) / static_cast<double>(images_to_grow_);
-    if (state_.part >= 1) state_ = {state_.shape, nullptr, 1};
+    if (state_.part >= 1) state_ = {state_.shape, nullptr, 1, state_.kept};
   }
   return state_;
 }
@@ -207,20 +214,38 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   Press press;
   if (tissue) press = press_of(std::array{PastContact{1, tissue->contact()}});
   const bool changed = is_at_rest(sites) || has_changed(sites, press);
-  const bool wanted =
-      changed || (made_up_ < kMostInARow && state_.shape && state_.shape->misses_volume());
   seen_.assign(sites.begin(), sites.end());
-  if (sites.empty() || next_.valid() || !wanted) return;
+  if (sites.empty() || next_.valid()) return;
+  const bool asked = tissue && state_.shape && !state_.before && images_ >= asked_ &&
+                     (!state_.kept || tissue != asked_in_);
+  if (changed || asked) begin(tissue, changed);
+}
+
+/// A shape of all that there is now; where nothing but tissue has changed, only if that takes some
+/// of the present one.
+void FluidShapes::begin(const std::shared_ptr<const DeformedBody>& tissue, bool changed) {
   made_up_ = changed ? 0 : made_up_ + 1;
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
-  begun_.assign(sites.begin(), sites.end());
-  if (tissue) remember(tissue->contact());
-  begun_under_ = press_of(contacts_);
-  next_ = std::async(std::launch::async,
-                     [opened = opened_, liquid = liquid_, tissue, contacts = contacts_,
-                      before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
-                       return make_shape(*opened, places, liquid, tissue, contacts, before.get());
-                     });
+  asked_ = due_ + (made_up_ < kMostInARow ? 0 : kLater * images_to_grow_);
+  asked_in_ = tissue;
+  if (changed) {
+    begun_ = seen_;
+    if (tissue) remember(tissue->contact());
+    begun_under_ = press_of(contacts_);
+  }
+  next_ = std::async(
+      std::launch::async,
+      [opened = opened_, liquid = liquid_, tissue, contacts = contacts_, before = state_.shape,
+       more = more_, places = injected_of(*joint_, spaces_, begun_), changed]() -> Made {
+        double now = tissue && before ? more : 1;
+        if (!changed) {
+          now = more_for(*before, opened->joint(), *tissue);
+          if (std::abs(now / before->made - 1) < kMissed) return {before, now, true};
+        }
+        auto shape = std::make_shared<const FluidShape>(
+            make_shape(*opened, places, now, liquid, tissue, contacts, before.get()));
+        return {shape, tissue ? more_for(*shape, opened->joint(), *tissue) : 1, !tissue};
+      });
 }
 
 }  // namespace artus

@@ -37,10 +37,6 @@ struct FluidShape {
   std::shared_ptr<const BodyMap> map;  ///< null: rigid
   double made = 1;                     ///< times what was given that its spaces were opened by
   DrawnLiquid liquid;
-  double more = 1;  ///< times what was given that its spaces' next shape is opened by: see below
-
-  /// Whether a press takes so much of it that another should make up for it.
-  [[nodiscard]] bool misses_volume() const noexcept;
 };
 
 /// What there is of it in one image: one shape, or one on its way to the next.
@@ -48,6 +44,7 @@ struct FluidState {
   std::shared_ptr<const FluidShape> shape;   ///< null: nothing was injected
   std::shared_ptr<const FluidShape> before;  ///< with the same vertices; null: it is all `shape`
   double part = 1;                           ///< of the way from `before`
+  bool kept = false;  ///< tissue, as it was when the shape was last asked, leaves all of it
 
   /// What there is in it.
   [[nodiscard]] DrawnLiquid liquid() const {
@@ -74,9 +71,10 @@ struct FluidState {
 /// probe puts on them, and tissue that parts, as with_injected says. Each shape is made on a thread
 /// of its own and taken a fixed number of images later, never "when ready": a pure function of what
 /// it was given. What presses on it is followed by a share a shape: a face that is held presses
-/// more as the space opens below it, and less once it has gone aside. A press takes volume from an
-/// open space that liquid does not give: the next shape makes up for it (kept_volume). Where tissue
-/// gives way a space goes over into its next shape as long as that is made. One thread.
+/// more as the space opens below it, and less once it has gone aside. Tissue that moves takes
+/// volume from an open space that liquid does not give: the next shape makes up for it
+/// (kept_volume), also where tissue alone has moved. Where it gives way a space goes over into its
+/// next shape as long as that is made. One thread.
 class FluidShapes {
  public:
   /// `opened`: the joint's, shared with others; null: its own. Requires: a joint whose spaces are
@@ -87,7 +85,8 @@ class FluidShapes {
   /// Of the next image, before its tissue's step. Waits where a shape is due and not ready.
   [[nodiscard]] const FluidState& step(std::span<const InjectedSite> sites);
   /// After that step: begins a shape where there is more liquid, or the probe presses otherwise;
-  /// where no more comes, one of all that there is.
+  /// where no more comes, one of all that there is, and where tissue has moved, one that makes up
+  /// for what that takes.
   /// `tissue`: the body as it gives way in this image; null: rigid.
   void follow(std::span<const InjectedSite> sites,
               const std::shared_ptr<const DeformedBody>& tissue);
@@ -106,7 +105,14 @@ class FluidShapes {
   void remember(const ContactForce& contact);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
   [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
+  /// A shape, and what tissue takes of it as it is now.
+  struct Made {
+    std::shared_ptr<const FluidShape> shape;
+    double more = 1;  // times what was given that the next one is opened by
+    bool kept = false;
+  };
   void take();
+  void begin(const std::shared_ptr<const DeformedBody>& tissue, bool changed);
 
   std::shared_ptr<const CompiledJoint> joint_;
   JointSpaces spaces_;
@@ -121,8 +127,11 @@ class FluidShapes {
   std::vector<PastContact> contacts_;  // that it was shaped under, the newest first
   Press begun_under_;                  // what they are together
   std::vector<InjectedSite> seen_;     // of the image before
-  int made_up_ = 0;                    // shapes in a row for what a press takes alone
-  std::future<FluidShape> next_;
+  int made_up_ = 0;                    // shapes in a row for what tissue takes alone
+  std::uint64_t asked_ = 0;            // image from which on what tissue takes is asked anew
+  std::shared_ptr<const DeformedBody> asked_in_;  // as it was then
+  double more_ = 1;
+  std::future<Made> next_;
   FluidState state_;
 };
 

@@ -22,7 +22,7 @@ namespace {
 // 15: beams between beams, and every second plane's scatterers: pictures are others.
 // 16: look, grey curve, compounding, persistence and Doppler are turned in a session.
 // 18: a bursa's film parts around the tip first, and a roof that liquid lifts leaves the bevel.
-constexpr int kVersion = 23;
+constexpr int kVersion = 24;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

@@ -194,9 +194,8 @@ TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
   EXPECT_NE(filled.back(), empty.back());
 }
 
-/// m^3 of a region as its walls are in this scene.
-double volume(const Scene& scene, const std::string& name) {
-  const CompiledJoint body = scene.tissue() ? scene.tissue()->moved_joint() : scene.joint();
+/// m^3 of a region within its walls.
+double volume(const CompiledJoint& body, const std::string& name) {
   const RegionId region = test::region_named(body, name);
   const auto& p = body.mesh.vertices;
   double six = 0;
@@ -206,6 +205,10 @@ double volume(const Scene& scene, const std::string& name) {
           (f.back == region ? 1 : -1) *
           (p[f.vertices[0]] - p[0]).dot((p[f.vertices[1]] - p[0]).cross(p[f.vertices[2]] - p[0]));
   return six / 6;
+}
+/// The same as tissue has moved them.
+double volume(const Scene& scene, const std::string& name) {
+  return volume(scene.tissue() ? scene.tissue()->moved_joint() : scene.joint(), name);
 }
 
 SessionParams giving_session() {
@@ -236,6 +239,14 @@ class PressedBursa {
     }
   }
 
+  /// From now on, on what is `depth` m below the skin beside the face's middle, N along the needle.
+  void push_needle(double depth, double force) {
+    input_.has_needle = 1;
+    input_.X_JN = to_plain(make_pose(Vec3(2e-3, 0, depth), Vec3::UnitZ(), Vec3::UnitY()));
+    input_.load.tip = force;
+    input_.load.tip_depth = depth;
+  }
+
   ImageCore core;
   Pose X_JP = Pose::Identity();
 
@@ -261,6 +272,24 @@ TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
       << "a press takes no liquid";
   EXPECT_LT(pressed, 0.9 * touching);
   EXPECT_NEAR(press(-5e-3, 90), open, 0.02e-3) << "it comes back";
+}
+
+/// A needle that tents a wall takes as much of a large bursa as there is liquid in it.
+TEST(FluidCore, TissueThatANeedleMovesTakesNoLiquid) {
+  const auto scene = make_soft_scene();
+  PressedBursa bursa(scene, 23e-3, 0.3e-6);
+  const auto held = [&] {
+    const Scene& drawn = *bursa.core.drawn_scene();
+    const double opened = volume(drawn.joint(), "bursa") - volume(scene->joint(), "bursa");
+    return opened * kept_volume(drawn.joint(), scene->joint(), *drawn.tissue());
+  };
+  bursa.press(-5e-3, 40);
+  EXPECT_NEAR(held(), 0.3e-6, 0.003e-6);
+  for (const double force : {1.0, 2.0, -1.0, 0.0}) {
+    bursa.push_needle(22e-3, force);
+    bursa.press(-5e-3, 80);
+    EXPECT_NEAR(held(), 0.3e-6, 0.003e-6) << force << " N";
+  }
 }
 
 /// Under the skin of a wrist the face presses several times as much as the space opens below it, so

@@ -26,7 +26,7 @@ void draw_all(Simulation& simulation, FrameInput shown, double given) {
   ImagedBody body;
   const auto follows = [&] {
     const FluidState& fluid = body.fluid;
-    return !fluid.shape || fluid.before || fluid.shape->misses_volume() ||
+    return !fluid.shape || fluid.before || !fluid.kept ||
            std::abs(fluid.liquid().given - given) > kAlike * given;
   };
   auto left = static_cast<int>(kLongest * params.image_rate);
