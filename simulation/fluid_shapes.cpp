@@ -67,8 +67,8 @@ double more_for(const FluidShape& shape, const CompiledJoint& rest, const Deform
   return 1 / std::max(kLeastKept, kept_volume(*shape.joint, rest, tissue));
 }
 
-/// `more`: times what was given that spaces are opened by.
-FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places, double more,
+/// `places`: all opened by the same times what was given.
+FluidShape make_shape(const OpenedSpaces& opened, const std::vector<Injected>& places,
                       const Liquid& liquid, const std::shared_ptr<const DeformedBody>& tissue,
                       std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
@@ -79,18 +79,17 @@ FluidShape make_shape(const OpenedSpaces& opened, std::vector<Injected> places, 
     return !past.contact.pieces.empty();
   });
   if (tissue && pressed) stress = FaceStress(tissue, std::move(contacts));
-  for (Injected& place : places) place.more = more;
   shape.joint = std::make_shared<const CompiledJoint>(
       with_injected(opened.joint(), places, liquid, stress, opened));
   if (!tissue) {
     shape.scene = std::make_shared<const Scene>(shape.joint);
     return shape;
   }
-  shape.made = more;
+  if (!places.empty()) shape.made = places.front().more;
   // What a press drives out is elsewhere in the space.
-  if (more >= kNearlyMost / kLeastKept)
+  if (shape.made >= kNearlyMost / kLeastKept)
     shape.liquid.left_out +=
-        std::max(0.0, 1 - kept_volume(*shape.joint, opened.joint(), *tissue) * more) *
+        std::max(0.0, 1 - kept_volume(*shape.joint, opened.joint(), *tissue) * shape.made) *
         (shape.liquid.given - shape.liquid.left_out);
   shape.map = map_of(*shape.joint, *tissue, before);
   return shape;
@@ -236,14 +235,15 @@ void FluidShapes::begin(const std::shared_ptr<const DeformedBody>& tissue, bool 
   next_ = std::async(
       std::launch::async,
       [opened = opened_, liquid = liquid_, tissue, contacts = contacts_, before = state_.shape,
-       more = more_, places = injected_of(*joint_, spaces_, begun_), changed]() -> Made {
+       more = more_, places = injected_of(*joint_, spaces_, begun_), changed]() mutable -> Made {
         double now = tissue && before ? more : 1;
         if (!changed) {
           now = more_for(*before, opened->joint(), *tissue);
           if (std::abs(now / before->made - 1) < kMissed) return {before, now, true};
         }
+        for (Injected& place : places) place.more = now;
         auto shape = std::make_shared<const FluidShape>(
-            make_shape(*opened, places, now, liquid, tissue, contacts, before.get()));
+            make_shape(*opened, places, liquid, tissue, contacts, before.get()));
         return {shape, tissue ? more_for(*shape, opened->joint(), *tissue) : 1, !tissue};
       });
 }
