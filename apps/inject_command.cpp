@@ -114,7 +114,10 @@ Result<void> examine_pressed(const InjectionRun& run, const View& view, bool pic
 /// One run's files. Errors: those of files.
 Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
                           const View& view, const InjectOptions& options,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, const Progress& progress) {
+  const auto tell = [&progress](std::string_view step, double done) {
+    if (progress) progress(step, done);
+  };
   Outcome outcome;
   ARTUS_TRY(write_injection(run, folder));
   outcome.report = summarize(run);
@@ -122,9 +125,11 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
   if (!options.hand.no_images && run.given > 0) {
     InjectionPictureOptions looks{view.transducer, view.settings, view.needle_shape};
     looks.needle.length = run.plunger.needle.length;
+    tell("pictures", 0.5);
     const auto pictures = write_injection_pictures(scene, run, looks, folder);
     ARTUS_TRY(pictures);
     if (!options.hand.no_video) {
+      tell("video", 0.6);
       const auto video = write_injection_video(scene, run, looks, folder);
       ARTUS_TRY(video);
       outcome.report["video"] = *video;
@@ -144,10 +149,12 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;
     examine(pictures->at_rest, "at rest", outcome);
   }
+  tell("the body in the end", 0.8);
   ARTUS_TRY(examine_pressed(run, view, !options.hand.no_images, folder, outcome));
   outcome.report["verdict"] = verdict(outcome.claims);
   if (!outcome.beside.empty()) outcome.report["published"] = verdict(outcome.beside);
   ARTUS_TRY(write_text(folder / "summary.json", outcome.report.dump(2) + "\n"));
+  tell("done", 1);
   return outcome;
 }
 
@@ -174,6 +181,7 @@ Result<void> write_comparison(std::span<const InjectionRun> runs, const InjectOp
 }
 
 Result<ExitCode> inject(const InjectOptions& options) {
+  ARTUS_TRY(make_folder(options.hand.out));
   const auto loaded = load_hand(options.hand);
   ARTUS_TRY(loaded);
   const auto& scene = loaded->at.scene;
@@ -188,12 +196,14 @@ Result<ExitCode> inject(const InjectOptions& options) {
   std::vector<InjectionRun> runs;
   auto reports = nlohmann::json::array();
   bool holds = true;
+  const Progress progress = make_progress_printer(options.hand.json);
   for (const std::string& name : into) {
     request->into = name;
+    if (progress) progress(name.empty() ? "injection" : "injection into " + name, 0);
     const auto run = run_injection(*scene, *request);
     ARTUS_TRY(run);
     const auto folder = into.size() > 1 ? options.hand.out / run->target : options.hand.out;
-    const auto outcome = write_run(scene, *run, loaded->at.view, options, folder);
+    const auto outcome = write_run(scene, *run, loaded->at.view, options, folder, progress);
     ARTUS_TRY(outcome);
     if (!options.hand.json) print_outcome(*outcome);
     holds = holds && all_hold(outcome->claims) && outcome->broken.empty();

@@ -28,9 +28,7 @@ struct PhantomCommandOptions {
 
 Result<nlohmann::json> draw_phantom(const EchoPhantom& phantom, const View& view,
                                     const std::filesystem::path& out) {
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), out.string());
+  ARTUS_TRY(make_folder(out));
   Renderer renderer(phantom.scene, view.transducer, view.settings);
   renderer.set_point_reflectors(phantom.reflectors);
   const Frame& frame = renderer.render(phantom.X_JP, phantom.needle);

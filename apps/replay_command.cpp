@@ -92,8 +92,10 @@ void examine(Simulation& simulation, const FrameInput& shown, const std::filesys
 }
 
 /// `health`: takes what is found of the body; outlives the listener.
+/// `images`: how many there are.
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
-                             std::FILE* trace, double period, std::optional<BodyHealth>& health) {
+                             std::size_t images, std::FILE* trace, double period,
+                             std::optional<BodyHealth>& health) {
   ReplayListener listener;
   if (!options.body.empty())
     listener.on_end = [&health, folder = options.body](Simulation& simulation,
@@ -106,13 +108,16 @@ ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& 
       write_tick(trace, s, period, joint.regions[s.feedback.region].name);
     };
   }
-  if (!options.frames.empty()) {
-    listener.on_frame = [folder = options.frames](const FrameRecord& record, const Frame& frame) {
+  listener.on_frame = [progress = make_progress_printer(options.json), images,
+                       seen = std::size_t{0}, folder = options.frames](const FrameRecord& record,
+                                                                       const Frame& frame) mutable {
+    if (progress) progress("images", static_cast<double>(++seen) / static_cast<double>(images));
+    if (!folder.empty()) {
       const auto file = folder / ("frame-" + std::to_string(record.input.number) + ".png");
       if (const auto written = write_image(grey_image(frame), file); !written)
         std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
-    };
-  }
+    }
+  };
   return listener;
 }
 
@@ -173,7 +178,8 @@ ExitCode run_replay(const ReplayOptions& options) {
   const double period = 1 / recording->head.params.haptic_rate;
   std::optional<BodyHealth> health;
   const auto report = replay(*recording, scene,
-                             make_listener(options, scene->joint(), trace.get(), period, health));
+                             make_listener(options, scene->joint(), recording->frames.size(),
+                                           trace.get(), period, health));
   if (!report) return report_error(report.error(), options.json);
   if (options.json) {
     nlohmann::json all = to_json(*report);

@@ -18,6 +18,15 @@ Result<void> write_text(const std::filesystem::path& file, std::string_view text
   return {};
 }
 
+Result<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    return fail(ErrorCode::unreadable, "no folder can be made here: " + error.message(),
+                folder.string());
+  return {};
+}
+
 Result<std::string> read_bytes(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);

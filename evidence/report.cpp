@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/evidence/report.h"
 
-#include <system_error>
-
 #include <nlohmann/json.hpp>
 
 #include "artus/detail/core/text_file.h"
 
 namespace artus {
-namespace {
-
-Result<void> make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
-  return {};
-}
-
-}  // namespace
-
 std::string to_markdown(const EvidenceReport& report, const std::string& folder) {
   std::string text = report.title + "\n";
   if (!report.source.empty()) text += "\nBeside " + report.source + ".\n";

@@ -225,6 +225,11 @@ Result<CompiledJoint> parse_compiled_joint(const std::string& payload, const std
 }
 
 Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesystem::path& file) {
+  std::error_code ignored_status;
+  const auto status = std::filesystem::status(file, ignored_status);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return fail(ErrorCode::unreadable, "cannot be written: this is a folder or a device",
+                file.string());
   const std::string payload = to_bytes(joint);
   const Header header{kMagic, kVersion, 0, payload.size(), hash_bytes(payload)};
   std::filesystem::path temporary = file;

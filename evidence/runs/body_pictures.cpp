@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/detail/core/text_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -29,8 +30,7 @@ cv::Mat draw(const HealthQuestion& question, const std::shared_ptr<const Scene>&
 
 Result<void> write_body_pictures(const HealthQuestion& question,
                                  const std::filesystem::path& folder, const std::string& name) {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
+  ARTUS_TRY(make_folder(folder));
   ARTUS_TRY(write_image(draw(question, question.before), folder / (name + "-before.png")));
   return write_image(draw(question, question.after), folder / (name + "-after.png"));
 }

@@ -197,10 +197,11 @@ cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
   const NeedleView needle{run.X_JN, options.needle, Vec3::Zero()};
   Renderer renderer(scene, options.transducer, options.settings);
   plume.show(renderer, *scene, time);
-  const Frame& frame = renderer.render(X_JP, needle);
+  const Pose X_JS = ride_on_skin(*scene, X_JP, options.transducer.width);
+  const Frame& frame = renderer.render(X_JS, needle);
   cv::Mat bmode;
   cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
-  const LabelImage labels = render_shown_labels(renderer, X_JP, needle);
+  const LabelImage labels = render_shown_labels(renderer, X_JS, needle);
   cv::Mat colours = colour_labels(labels, scene->joint());
   const int border = bmode.cols - colours.cols;
   cv::copyMakeBorder(colours, colours, 4, 4, border / 2, border - border / 2, cv::BORDER_CONSTANT);
@@ -324,7 +325,8 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
     plume.show(renderer, *body, row.time);
-    const Frame& frame = renderer.render(X_JP, NeedleView{X_JN, deep.needle, Vec3::Zero()});
+    const Pose X_JS = ride_on_skin(*body, X_JP, deep.transducer.width);
+    const Frame& frame = renderer.render(X_JS, NeedleView{X_JN, deep.needle, Vec3::Zero()});
     cv::Mat picture = annotated_image(frame, deep.transducer);
     cv::putText(picture,
                 printed("%.1f s  %.2f ml  %.1f N  %.0f kPa", row.time - first->time,

@@ -219,8 +219,7 @@ Plot plot_of(std::span<const InjectionRun> runs) {
 }
 
 Result<void> write_injection(const InjectionRun& run, const std::filesystem::path& folder) {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
+  ARTUS_TRY(make_folder(folder));
   ARTUS_TRY(write_trace(run, folder / "trace.csv"));
   return write_plot(folder / "injection.svg", plot_of(run));
 }

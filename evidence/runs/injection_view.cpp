@@ -122,4 +122,18 @@ FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width, ViewS
   return best;
 }
 
+Pose ride_on_skin(const Scene& body, Pose X_JP, double width) {
+  constexpr double kMost = 30e-3;  // m
+  constexpr int kSamples = 21;     // along the face
+  double lift = 0;
+  for (int k = 0; k < kSamples; ++k) {
+    const double x = width * (static_cast<double>(k) / (kSamples - 1) - 0.5);
+    const Segment down{X_JP * Vec3(x, 0, -kMost), X_JP * Vec3(x, 0, 0)};
+    const TissueInterval first = tissue_intervals(body, down).front();
+    if (first.region == kOutside) lift = std::max(lift, kMost - first.exit);
+  }
+  X_JP.translation() -= lift * X_JP.linear().col(2);
+  return X_JP;
+}
+
 }  // namespace artus

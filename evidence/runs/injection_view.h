@@ -24,4 +24,8 @@ enum class ViewSearch { fine, coarse };
 [[nodiscard]] FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width,
                                      ViewSearch search = ViewSearch::fine);
 
+/// The same probe where skin below its face has been lifted: moved back along its axis until no
+/// skin stands in the face. At most 30 mm.
+[[nodiscard]] Pose ride_on_skin(const Scene& body, Pose X_JP, double width);
+
 }  // namespace artus

@@ -236,9 +236,7 @@ nlohmann::json summarize(const ThreeInjections& run) {
 
 Result<void> write_three_injections(const ThreeInjections& run,
                                     const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  ARTUS_TRY(make_folder(folder));
   MoreColumns more;
   std::string header;
   if (!run.probe.empty()) header += kProbeHeader;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
+
 namespace artus {
 namespace {
 
@@ -34,7 +37,10 @@ Result<PlungerParams> make_plunger_params(const SyringeChoice& choice, double ne
   params.syringe = syringe_for(choice.barrel > 0 ? choice.barrel : choice.filled / kBeyondMark);
   params.syringe.volume *= kBeyondMark;
   if (params.syringe.volume < choice.filled)
-    return fail(ErrorCode::invalid, "the syringe does not hold the volume", "syringe");
+    return fail(ErrorCode::invalid,
+                printed("a syringe of %g ml does not hold %g ml; take a larger one, or less",
+                        choice.barrel / kCubicCentimetre, choice.filled / kCubicCentimetre),
+                "syringe");
   params.syringe.filled = choice.filled;
   params.syringe.air = choice.air;
   params.unbalanced = choice.unbalanced;

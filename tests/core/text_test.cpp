@@ -169,6 +169,14 @@ TEST_F(TextFiles, AreWrittenWithTheFoldersOnTheWayAndReadByteForByte) {
   EXPECT_EQ(read_bytes(in("absent")).error().code, ErrorCode::not_found);
   EXPECT_EQ(read_bytes(in("a")).error().code, ErrorCode::unreadable) << "a folder";
   EXPECT_EQ(write_text(in("a"), text).error().code, ErrorCode::unreadable);
+  ASSERT_TRUE(make_folder(in("d/e")));
+  EXPECT_TRUE(make_folder(in("d/e"))) << "it is there";
+  EXPECT_TRUE(std::filesystem::is_directory(in("d/e")));
+  for (const std::string& file : {in("a/b/c.txt"), in("a/b/c.txt/d")}) {
+    const auto made = make_folder(file);
+    ASSERT_FALSE(made) << "a file is in its place";
+    EXPECT_EQ(made.error().where, file);
+  }
 }
 
 /// A table taken apart and what was wrong with it.

@@ -2,6 +2,9 @@
 #include "artus/detail/anatomy/body/joint_pose.h"
 
 #include <array>
+#include <filesystem>
+
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +45,23 @@ TEST_F(JointPoseFile, IsKeptInACompiledFile) {
   EXPECT_EQ(read->poses[0].motions[0].X_J.matrix(), motion.X_J.matrix());
   EXPECT_TRUE(read->poses[0].X_JP);
   EXPECT_FALSE(read->poses[1].X_JP);
+}
+
+/// A compiled file comes in place of what was there by one move: never of a device.
+TEST_F(JointPoseFile, ADeviceOrAFolderIsNotReplacedByACompiledFile) {
+  const std::array<test::FlatLayer, 1> layers{{{"muscle", 10e-3}}};
+  const CompiledJoint joint = test::make_layered_block(layers, 20e-3, 20e-3);
+  const std::string pipe = in("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string folder = in("folder");
+  std::filesystem::create_directories(folder);
+  for (const std::string& place : {pipe, folder}) {
+    const auto written = write_compiled_joint(joint, place);
+    ASSERT_FALSE(written) << place;
+    EXPECT_EQ(written.error().where, place);
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(std::filesystem::is_directory(folder));
 }
 
 StandardView groove_view() {

@@ -71,6 +71,22 @@ TEST(FindView, NeverLooksFromWithinTheBody) {
   EXPECT_NEAR(find_view_of(scene, X_JN, kWidth).X_JP.translation().z(), 0, 3e-3);
 }
 
+TEST(RideOnSkin, AFaceLiesOnTheHighestSkinBelowItAndIsNeverPushedIn) {
+  const Scene scene(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(kLayers, 0.12, 0.12)));
+  const Vec3 down = Vec3::UnitZ();
+  const auto height = [&](double z, const Vec3& axis) {
+    const Pose X_JP = make_pose(Vec3(0, 0, z), axis, Vec3::UnitY().cross(axis));
+    return ride_on_skin(scene, X_JP, kWidth).translation().z();
+  };
+  EXPECT_NEAR(height(5e-3, down), 0, 1e-6);
+  EXPECT_EQ(height(-2e-3, down), -2e-3);
+  const double tilt = 0.1;
+  EXPECT_NEAR(height(0, Vec3(std::sin(tilt), 0, std::cos(tilt))), -kWidth / 2 * std::sin(tilt),
+              1e-4)
+      << "the edge that is in";
+}
+
 /// Tetrahedra in which a target may lie, all over a layer of a block.
 void fill_layer(CompiledJoint& joint, double z, RegionId region) {
   TetMesh& mesh = joint.mesh;
