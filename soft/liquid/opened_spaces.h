@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -11,12 +12,18 @@
 
 namespace artus {
 
+/// The cavities among `spaces` (indices), those first that planned injections end next to, in the
+/// order of the plan: where liquid is likely to come first. Cost: the interfaces, once an
+/// injection.
+[[nodiscard]] std::vector<std::uint32_t> order_by_plan(const CompiledJoint& joint,
+                                                       const JointSpaces& spaces);
+
 /// The spaces of a joint, each made ready once: when it is first asked for, or before that on a
 /// thread of its own. Any number of threads.
 class OpenedSpaces {
  public:
-  /// `ahead`: begins to make all of them at once, one after another. Requires: a joint whose spaces
-  /// are valid. Cost: little; see OpenedSpace.
+  /// `ahead`: begins to make all of them at once, one after another (order_by_plan). Requires: a
+  /// joint whose spaces are valid. Cost: little; see OpenedSpace.
   explicit OpenedSpaces(std::shared_ptr<const CompiledJoint> joint, bool ahead = false);
   ~OpenedSpaces();
   OpenedSpaces(const OpenedSpaces&) = delete;

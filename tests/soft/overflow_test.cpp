@@ -49,6 +49,26 @@ class Overflow : public ::testing::Test {
   Vec3 tip_ = Vec3::Zero();
 };
 
+TEST_F(Overflow, SpacesThatAPlanEndsInAreMadeReadyFirst) {
+  CompiledJoint joint = *joint_;
+  const auto spaces = make_joint_spaces(joint);
+  ASSERT_TRUE(spaces);
+  const auto space_of = [&](const char* name) {
+    return spaces->of_region[*find_region(joint, name)];
+  };
+  const auto bursa_first = order_by_plan(joint, *spaces);
+  ASSERT_GT(bursa_first.size(), 2U);
+  EXPECT_EQ(bursa_first.front(), space_of("subacromial_bursa"));
+  joint.injections = {{"joint", Vec3::Zero(), tip_}, joint.injections.front()};
+  const auto joint_first = order_by_plan(joint, *spaces);
+  EXPECT_EQ(joint_first[0], space_of("joint_fluid"));
+  EXPECT_EQ(joint_first[1], space_of("subacromial_bursa"));
+  EXPECT_TRUE(std::is_permutation(joint_first.begin(), joint_first.end(), bursa_first.begin(),
+                                  bursa_first.end()));
+  for (const std::uint32_t space : bursa_first)
+    EXPECT_EQ(spaces->spaces[space].law.kind, SpaceKind::cavity);
+}
+
 TEST_F(Overflow, LeavesWhatASpaceTakes) {
   const double most = spaces_->of(region_).max_volume();
   const auto places = with_overflow(*spaces_, {{"joint_fluid", 0.9 * most, true, tip_}});
