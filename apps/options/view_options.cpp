@@ -138,7 +138,9 @@ void add_imaging_options(Command* command, ViewOptions& options) {
       ->check(whole_within(ImageRanges::n_planes))
       ->capture_default_str();
   add_threads_option(command, options.threads);
-  command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
+  command->add_option("--seed", options.seed, "seed of speckle and noise")
+      ->check(whole_number_in(0, 1000000000))
+      ->capture_default_str();
 }
 
 void add_view_options(Command* command, ViewOptions& options) {

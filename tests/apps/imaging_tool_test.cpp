@@ -258,6 +258,14 @@ TEST_F(ImagingTool, ADirectionWithoutANeedleIsRefused) {
       << without.err;
 }
 
+TEST_F(ImagingTool, ASeedThatIsNoWholeNumberIsRefusedWithItsRange) {
+  for (const char* seed : {"-1", "1e9", "2000000000"}) {
+    const auto r = artus({"image", "-j", kSimple, "--seed", seed, "-o", in("seed.png")});
+    EXPECT_EQ(r.exit_code, 2) << seed;
+    EXPECT_NE(r.err.find("is not a whole number from 0 to 1000000000"), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
   const auto r = artus({"image", "labels", "-j", kSimple, "--needle", "default", "--needle-way",
                         "in", "-o", in("rigid.png")});
