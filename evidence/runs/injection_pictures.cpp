@@ -197,7 +197,7 @@ cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
   const NeedleView needle{run.X_JN, options.needle, Vec3::Zero()};
   Renderer renderer(scene, options.transducer, options.settings);
   plume.show(renderer, *scene, time);
-  const Pose X_JS = ride_on_skin(*scene, X_JP, options.transducer.width);
+  const Pose X_JS = ride_on_skin(*scene, X_JP, options.transducer);
   const Frame& frame = renderer.render(X_JS, needle);
   cv::Mat bmode;
   cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
@@ -325,7 +325,7 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
     plume.show(renderer, *body, row.time);
-    const Pose X_JS = ride_on_skin(*body, X_JP, deep.transducer.width);
+    const Pose X_JS = ride_on_skin(*body, X_JP, deep.transducer);
     const Frame& frame = renderer.render(X_JS, NeedleView{X_JN, deep.needle, Vec3::Zero()});
     cv::Mat picture = annotated_image(frame, deep.transducer);
     cv::putText(picture,

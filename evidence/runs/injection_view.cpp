@@ -122,13 +122,16 @@ FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width, ViewS
   return best;
 }
 
-Pose ride_on_skin(const Scene& body, Pose X_JP, double width) {
+Pose ride_on_skin(const Scene& body, Pose X_JP, const Transducer& transducer) {
   constexpr double kMost = 30e-3;  // m
   constexpr int kSamples = 21;     // along the face
   double lift = 0;
   for (int k = 0; k < kSamples; ++k) {
-    const double x = width * (static_cast<double>(k) / (kSamples - 1) - 0.5);
-    const Segment down{X_JP * Vec3(x, 0, -kMost), X_JP * Vec3(x, 0, 0)};
+    const double along = transducer.width * (static_cast<double>(k) / (kSamples - 1) - 0.5);
+    const double r = transducer.radius;
+    const Vec3 face =
+        r > 0 ? Vec3(r * std::sin(along / r), 0, r * (std::cos(along / r) - 1)) : Vec3(along, 0, 0);
+    const Segment down{X_JP * Vec3(face - kMost * Vec3::UnitZ()), X_JP * face};
     const TissueInterval first = tissue_intervals(body, down).front();
     if (first.region == kOutside) lift = std::max(lift, kMost - first.exit);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/core/geometry.h"
+#include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -26,6 +27,6 @@ enum class ViewSearch { fine, coarse };
 
 /// The same probe where skin below its face has been lifted: moved back along its axis until no
 /// skin stands in the face. At most 30 mm.
-[[nodiscard]] Pose ride_on_skin(const Scene& body, Pose X_JP, double width);
+[[nodiscard]] Pose ride_on_skin(const Scene& body, Pose X_JP, const Transducer& transducer);
 
 }  // namespace artus

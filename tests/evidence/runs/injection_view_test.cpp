@@ -75,9 +75,11 @@ TEST(RideOnSkin, AFaceLiesOnTheHighestSkinBelowItAndIsNeverPushedIn) {
   const Scene scene(
       std::make_shared<const CompiledJoint>(test::make_layered_block(kLayers, 0.12, 0.12)));
   const Vec3 down = Vec3::UnitZ();
+  Transducer face;
+  face.width = kWidth;
   const auto height = [&](double z, const Vec3& axis) {
     const Pose X_JP = make_pose(Vec3(0, 0, z), axis, Vec3::UnitY().cross(axis));
-    return ride_on_skin(scene, X_JP, kWidth).translation().z();
+    return ride_on_skin(scene, X_JP, face).translation().z();
   };
   EXPECT_NEAR(height(5e-3, down), 0, 1e-6);
   EXPECT_EQ(height(-2e-3, down), -2e-3);
@@ -85,6 +87,11 @@ TEST(RideOnSkin, AFaceLiesOnTheHighestSkinBelowItAndIsNeverPushedIn) {
   EXPECT_NEAR(height(0, Vec3(std::sin(tilt), 0, std::cos(tilt))), -kWidth / 2 * std::sin(tilt),
               1e-4)
       << "the edge that is in";
+  face.radius = 30e-3;
+  EXPECT_NEAR(height(0, Vec3(std::sin(tilt), 0, std::cos(tilt))), -30e-3 * (1 - std::cos(tilt)),
+              3e-5)
+      << "a round face rolls";
+  EXPECT_NEAR(height(5e-3, down), 0, 1e-6);
 }
 
 /// Tetrahedra in which a target may lie, all over a layer of a block.
