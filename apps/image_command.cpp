@@ -152,8 +152,8 @@ ExitCode run_all_views(ImageOptions options) {
   if ((*joint)->views.empty())
     return report_error({ErrorCode::not_found, "the joint has no views", (*joint)->name},
                         options.json);
-  std::error_code made;
-  std::filesystem::create_directories(options.out, made);
+  if (const auto made = make_folder(options.out); !made)
+    return report_error(made.error(), options.json);
   std::vector<ShownView> all;
   nlohmann::json report = nlohmann::json::array();
   for (const StandardView& view : (*joint)->views) {

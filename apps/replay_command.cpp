@@ -8,6 +8,7 @@
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/evidence/runs/body_pictures.h"
 #include "artus/detail/simulation/plain_pose.h"
 #include "artus/detail/training/health/simulated_health.h"
@@ -174,7 +175,9 @@ ExitCode run_replay(const ReplayOptions& options) {
       return report_error({ErrorCode::unreadable, "cannot write the trace", options.trace},
                           options.json);
   }
-  if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
+  if (!options.frames.empty())
+    if (const auto made = make_folder(options.frames); !made)
+      return report_error(made.error(), options.json);
   const double period = 1 / recording->head.params.haptic_rate;
   std::optional<BodyHealth> health;
   const auto report = replay(*recording, scene,

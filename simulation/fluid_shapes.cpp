@@ -62,15 +62,15 @@ double volume_of(const std::vector<Injected>& places) {
   return volume;
 }
 
-/// Times what was given that a shape is to be opened by, for `tissue` to leave all of it.
-double more_for(const FluidShape& shape, const CompiledJoint& rest, const DeformedBody& tissue) {
-  return 1 / std::max(kLeastKept, kept_volume(*shape.joint, rest, tissue));
+/// Times what was given that a shape is to be opened by, where tissue keeps this share of it.
+double more_for(double kept) {
+  return 1 / std::max(kLeastKept, kept);
 }
 
 /// `places`: all opened by the same times what was given.
-FluidShape make_shape(const OpenedSpaces& opened, const std::vector<Injected>& places,
-                      const Liquid& liquid, const std::shared_ptr<const DeformedBody>& tissue,
-                      std::vector<PastContact> contacts, const FluidShape* before) {
+MadeShape make_shape(const OpenedSpaces& opened, const std::vector<Injected>& places,
+                     const Liquid& liquid, const std::shared_ptr<const DeformedBody>& tissue,
+                     std::vector<PastContact> contacts, const FluidShape* before) {
   FluidShape shape;
   shape.liquid.given = volume_of(places);
   shape.liquid.left_out = shape.liquid.given - volume_of(with_overflow(opened, places));
@@ -83,16 +83,16 @@ FluidShape make_shape(const OpenedSpaces& opened, const std::vector<Injected>& p
       with_injected(opened.joint(), places, liquid, stress, opened));
   if (!tissue) {
     shape.scene = std::make_shared<const Scene>(shape.joint);
-    return shape;
+    return {std::make_shared<const FluidShape>(std::move(shape)), 1, true};
   }
   if (!places.empty()) shape.made = places.front().more;
+  const double kept = kept_volume(*shape.joint, opened.joint(), *tissue);
   // What a press drives out is elsewhere in the space.
   if (shape.made >= kNearlyMost / kLeastKept)
     shape.liquid.left_out +=
-        std::max(0.0, 1 - kept_volume(*shape.joint, opened.joint(), *tissue) * shape.made) *
-        (shape.liquid.given - shape.liquid.left_out);
+        std::max(0.0, 1 - kept * shape.made) * (shape.liquid.given - shape.liquid.left_out);
   shape.map = map_of(*shape.joint, *tissue, before);
-  return shape;
+  return {std::make_shared<const FluidShape>(std::move(shape)), more_for(kept), false};
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ bool FluidShapes::is_at_rest(std::span<const InjectedSite> sites) const {
 /// Another shape of the same vertices is gone over into; what has others is there at once.
 void FluidShapes::take() {
   const std::shared_ptr<const FluidShape> before = std::move(state_.shape);
-  const Made made = next_.get();
+  const MadeShape made = next_.get();
   state_ = {made.shape, nullptr, 1, made.kept};
   more_ = made.more;
   taken_ = images_;
@@ -232,20 +232,19 @@ void FluidShapes::begin(const std::shared_ptr<const DeformedBody>& tissue, bool 
     if (tissue) remember(tissue->contact());
     begun_under_ = press_of(contacts_);
   }
-  next_ = std::async(
-      std::launch::async,
-      [opened = opened_, liquid = liquid_, tissue, contacts = contacts_, before = state_.shape,
-       more = more_, places = injected_of(*joint_, spaces_, begun_), changed]() mutable -> Made {
-        double now = tissue && before ? more : 1;
-        if (!changed) {
-          now = more_for(*before, opened->joint(), *tissue);
-          if (std::abs(now / before->made - 1) < kMissed) return {before, now, true};
-        }
-        for (Injected& place : places) place.more = now;
-        auto shape = std::make_shared<const FluidShape>(
-            make_shape(*opened, places, liquid, tissue, contacts, before.get()));
-        return {shape, tissue ? more_for(*shape, opened->joint(), *tissue) : 1, !tissue};
-      });
+  next_ =
+      std::async(std::launch::async,
+                 [opened = opened_, liquid = liquid_, tissue, contacts = contacts_,
+                  before = state_.shape, more = more_,
+                  places = injected_of(*joint_, spaces_, begun_), changed]() mutable -> MadeShape {
+                   double now = tissue && before ? more : 1;
+                   if (!changed) {
+                     now = more_for(kept_volume(*before->joint, opened->joint(), *tissue));
+                     if (std::abs(now / before->made - 1) < kMissed) return {before, now, true};
+                   }
+                   for (Injected& place : places) place.more = now;
+                   return make_shape(*opened, places, liquid, tissue, contacts, before.get());
+                 });
 }
 
 }  // namespace artus

@@ -39,6 +39,13 @@ struct FluidShape {
   DrawnLiquid liquid;
 };
 
+/// A shape, and what tissue takes of it as it is then.
+struct MadeShape {
+  std::shared_ptr<const FluidShape> shape;
+  double more = 1;    ///< times what was given that the next one is opened by
+  bool kept = false;  ///< see FluidState
+};
+
 /// What there is of it in one image: one shape, or one on its way to the next.
 struct FluidState {
   std::shared_ptr<const FluidShape> shape;   ///< null: nothing was injected
@@ -105,12 +112,6 @@ class FluidShapes {
   void remember(const ContactForce& contact);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
   [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
-  /// A shape, and what tissue takes of it as it is now.
-  struct Made {
-    std::shared_ptr<const FluidShape> shape;
-    double more = 1;  // times what was given that the next one is opened by
-    bool kept = false;
-  };
   void take();
   void begin(const std::shared_ptr<const DeformedBody>& tissue, bool changed);
 
@@ -131,7 +132,7 @@ class FluidShapes {
   std::uint64_t asked_ = 0;            // image from which on what tissue takes is asked anew
   std::shared_ptr<const DeformedBody> asked_in_;  // as it was then
   double more_ = 1;
-  std::future<Made> next_;
+  std::future<MadeShape> next_;
   FluidState state_;
 };
 
